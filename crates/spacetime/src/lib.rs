@@ -11,13 +11,16 @@
 //!
 //! This crate does no input or output and knows no clock, no thread and no SI unit.
 
+pub mod geodesic;
 pub mod kerr;
+pub mod metric;
 
 pub mod observer;
 
 mod dual;
 mod lanes;
 mod scalar;
+pub mod tensor;
 
 pub use dual::Dual;
 pub use lanes::Lanes;

@@ -1,5 +1,6 @@
-//! Observers: where they are and how they move.
+//! Where observers are and how they move.
 
+use crate::kerr::{Orbits, ergosphere, horizons};
 use thiserror::Error;
 
 /// A place in Boyer–Lindquist coordinates (spherical ones in flat space).
@@ -78,7 +79,66 @@ pub enum ObserverError {
         /// |v|/c.
         speed: f64,
     },
+    /// The radial potential is negative there.
+    #[error("no photon with α = {alpha} M, β = {beta} M gets to r = {r} M")]
+    NoSuchPhoton {
+        /// Asked α.
+        alpha: f64,
+        /// Asked β.
+        beta: f64,
+        /// Asked radius.
+        r: f64,
+    },
+    /// Flat space has no orbits.
+    #[error("nothing orbits in flat space")]
+    NothingToOrbit,
     /// An observer at infinity is at rest there.
     #[error("an observer at infinity is static")]
     MovingAtInfinity,
+}
+
+/// Whether an observer can be at `place`, moving so, around a hole of spin a (`None`: in flat space).
+///
+/// # Errors
+/// The reason why not.
+pub fn check(spin: Option<f64>, place: &Place, motion: &Motion) -> Result<(), ObserverError> {
+    if let Motion::Velocity(v) | Motion::VelocityFromFall(v) = motion {
+        let speed = v.iter().map(|c| c * c).sum::<f64>().sqrt();
+        // Also refuses NaN.
+        if !(speed < 1.0) {
+            return Err(ObserverError::FasterThanLight { speed });
+        }
+    }
+    if place.r.is_infinite() {
+        return if *motion == Motion::Static { Ok(()) } else { Err(ObserverError::MovingAtInfinity) };
+    }
+    let Some(spin) = spin else {
+        return if *motion == Motion::Orbit { Err(ObserverError::NothingToOrbit) } else { Ok(()) };
+    };
+    let r = place.r;
+    let (horizon, inner_horizon) = horizons(spin);
+    if r <= inner_horizon {
+        return Err(ObserverError::InsideInnerHorizon { r, inner_horizon });
+    }
+    if r <= horizon && !matches!(motion, Motion::Fall | Motion::VelocityFromFall(_)) {
+        return Err(ObserverError::InsideHorizon { r, horizon });
+    }
+    match motion {
+        Motion::Static => {
+            let limit = ergosphere(spin, place.theta);
+            if r <= limit { Err(ObserverError::StaticInErgosphere { r, limit }) } else { Ok(()) }
+        }
+        Motion::Orbit => {
+            let photon = Orbits::new(spin).photon_prograde;
+            // A millionth of a degree: what a user types as 90.
+            if (place.theta - std::f64::consts::FRAC_PI_2).abs() > 2e-8 {
+                Err(ObserverError::OrbitOffPlane { degrees: place.theta.to_degrees() })
+            } else if r <= photon {
+                Err(ObserverError::NoOrbit { r, photon })
+            } else {
+                Ok(())
+            }
+        }
+        _ => Ok(()),
+    }
 }

@@ -1,0 +1,384 @@
+//! Rays by numerical integration of Hamilton's equations, in any metric.
+
+use super::chart::{BoundedAffine, Chart};
+use super::inverted::{InvertedFlow, PLAIN, TIMED, pack};
+use super::method::{Dop853, Method, Rk4, Tsit5};
+use super::walk::{Bounds, Control, End, Stop, Visitor, walk};
+use super::{AffineFlow, Crossing, Dense, Fate, Path, Query, Ray, Side, Tracer};
+use crate::metric::{Inverted, Metric};
+use crate::tensor::dot;
+
+/// A Runge–Kutta method and its accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scheme {
+    /// Order 4 with constant steps of affine parameter, in M: the thesis's.
+    Rk4 {
+        /// The step.
+        step: f64,
+    },
+    /// Order 5 with error control.
+    Tsit5 {
+        /// About the error of a ray's direction, in radians, away from the critical curve.
+        tolerance: f64,
+    },
+    /// Order 8 with error control.
+    Dop853 {
+        /// About the error of a ray's direction, in radians, away from the critical curve.
+        tolerance: f64,
+    },
+}
+
+/// Steps with error control turn by at most this angle: far less than π, within which a plane
+/// through the origin is crossed once, and short enough that few steps are refused.
+const MAX_TURN: f64 = 0.8;
+
+/// A step's error is held to this share of the tolerance, because strong bending multiplies it
+/// later on: the direction of a typical ray then errs by a tenth of the tolerance.
+const STEP_SHARE: f64 = 1.0 / 30.0;
+
+/// Estimates are this multiple of the drift of conserved quantities, so that about one ray in
+/// a hundred errs by more.
+const CAUTION: f64 = 2.0;
+
+/// A photon that rises through the horizon changes sheets at this multiple of its radius.
+const EXIT: f64 = 1.1;
+
+/// A tracer that integrates.
+///
+/// ```
+/// use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Scheme, Tracer};
+/// use kerrscope_spacetime::metric::Kerr;
+/// use kerrscope_spacetime::observer::impact_ray;
+///
+/// let spin = 0.9;
+/// let ray = impact_ray(spin, 60f64.to_radians(), f64::INFINITY, [-8.0, 2.0])?;
+/// let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-10 }, 10_000);
+/// let mut path = Path::default();
+/// tracer.trace(&ray, &Query::default(), &mut path);
+/// assert_eq!(path.fate, Fate::Escaped);
+/// # Ok::<(), kerrscope_spacetime::observer::ObserverError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Integrator<M> {
+    /// The spacetime as it is, for cameras inside the horizon.
+    ingoing: M,
+    /// The spacetime reversed in time, for all others.
+    reversed: M,
+    scheme: Scheme,
+    max_steps: usize,
+}
+
+impl<M: Metric> Integrator<M> {
+    /// A tracer in `metric`, giving up on a ray after `max_steps` steps.
+    pub fn new(metric: M, scheme: Scheme, max_steps: usize) -> Self {
+        Self { ingoing: metric, reversed: metric.reversed(), scheme, max_steps }
+    }
+
+    fn control(&self) -> Control {
+        let (tolerance, step) = match self.scheme {
+            Scheme::Rk4 { step } => (f64::NAN, step),
+            Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => (tolerance, f64::NAN),
+        };
+        Control { tolerance: STEP_SHARE * tolerance, step, max_steps: self.max_steps, max_turn: MAX_TURN }
+    }
+
+    /// From inside the horizon to outside it in ingoing coordinates, then on.
+    fn rise(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        let metric = self.ingoing;
+        if !metric.rises(ray.energy, ray.start.j[2]) {
+            path.fate = Fate::Captured;
+            path.error_estimate = f64::EPSILON;
+            return;
+        }
+        let bounds = Bounds {
+            plane: query.plane,
+            inverse_horizon: 1.0 / metric.horizon(),
+            inverse_exit: Some(1.0 / (EXIT * metric.horizon())),
+        };
+        let flow = InvertedFlow { metric, energy: ray.energy };
+        let mut log = Log::new(&flow, metric, query, Origin::within(ray), path);
+        let end = walk::<_, Dop853, _, PLAIN, 12>(&flow, pack(&ray.start), &bounds, &self.fine_control(), &mut log);
+        path.steps += end.steps;
+        let state = flow.state(&end.y);
+        match end.stop {
+            Stop::Rose => {
+                let r = 1.0 / metric.inverse_radius(state.w, &state.n);
+                let (before, after) = (metric.azimuth_offset(r), self.reversed.azimuth_offset(r));
+                let outside = Ray {
+                    start: metric.change_sheet(ray.energy, &state),
+                    energy: -ray.energy,
+                    side: Side::Reversed,
+                    azimuth: ray.azimuth + end.swept - before + after,
+                };
+                // Boyer–Lindquist time diverges at the horizon, so none has elapsed from there.
+                self.follow(&outside, &Query { elapsed: false, points: 0, ..*query }, path);
+            }
+            Stop::Sank => {
+                path.fate = Fate::Captured;
+                path.error_estimate = drift(&metric, ray.energy, &ray.start, &state);
+            }
+            _ => path.fate = Fate::StepLimit,
+        }
+    }
+
+    /// Steps for a part of a ray that the scheme has no chart for.
+    fn fine_control(&self) -> Control {
+        let control = self.control();
+        Control { tolerance: if control.tolerance.is_nan() { 1e-13 } else { control.tolerance }, ..control }
+    }
+
+    /// Outside the horizon, in the reversed spacetime.
+    fn follow(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        let timed = query.elapsed || query.points > 0;
+        match (self.scheme, timed) {
+            (Scheme::Rk4 { .. }, false) => self.follow_affine::<6, PLAIN>(ray, query, path),
+            (Scheme::Rk4 { .. }, true) => self.follow_affine::<7, TIMED>(ray, query, path),
+            (Scheme::Tsit5 { .. }, false) => self.follow_inverted::<Tsit5, PLAIN, 6>(ray, query, path),
+            (Scheme::Tsit5 { .. }, true) => self.follow_inverted::<Tsit5, TIMED, 6>(ray, query, path),
+            (Scheme::Dop853 { .. }, false) => self.follow_inverted::<Dop853, PLAIN, 12>(ray, query, path),
+            (Scheme::Dop853 { .. }, true) => self.follow_inverted::<Dop853, TIMED, 12>(ray, query, path),
+        }
+    }
+
+    fn bounds(&self, query: &Query) -> Bounds {
+        Bounds { plane: query.plane, inverse_horizon: 1.0 / self.reversed.horizon(), inverse_exit: None }
+    }
+
+    fn follow_inverted<R: Method<STAGES>, const D: usize, const STAGES: usize>(
+        &self,
+        ray: &Ray,
+        query: &Query,
+        path: &mut Path,
+    ) {
+        let flow = InvertedFlow { metric: self.reversed, energy: ray.energy };
+        let y = pack::<f64, D>(&ray.start);
+        let mut log = Log::new(&flow, self.reversed, query, Origin::of(&self.reversed, ray), path);
+        let end = log.walk::<R, STAGES>(y, &self.bounds(query), &self.control());
+        self.conclude(ray, &flow, &end, ray.azimuth + end.swept, path);
+    }
+
+    /// `A` components in the affine chart, then `D` in the inverted one.
+    fn follow_affine<const A: usize, const D: usize>(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        if ray.start.w <= 0.0 {
+            // A constant step cannot come in from infinity.
+            path.fate = Fate::StepLimit;
+            return;
+        }
+        let (metric, energy) = (self.reversed, ray.energy);
+        let limit = 2.0 * ray.start.w.recip().max(50.0);
+        let near = BoundedAffine { flow: AffineFlow { metric, energy }, limit };
+        let origin = Origin::of(&metric, ray);
+        let mut log = Log::new(&near, metric, query, origin, path);
+        let y: [f64; A] = near.start(&ray.start);
+        let end = log.walk::<Rk4, 4>(y, &self.bounds(query), &self.control());
+        if end.stop != Stop::Left {
+            self.conclude(ray, &near, &end, ray.azimuth + end.swept, path);
+            return;
+        }
+        path.steps += end.steps;
+        let far = InvertedFlow { metric, energy };
+        let mut y = pack::<f64, D>(&near.state(&end.y));
+        if D == TIMED {
+            y[8] = near.virial(&end.y);
+        }
+        let azimuth = ray.azimuth + end.swept;
+        let rest = Query { points: 0, ..*query };
+        let mut log = Log::new(&far, metric, &rest, Origin { azimuth, ..origin }, path);
+        let end = log.walk::<Dop853, 12>(y, &self.bounds(query), &self.fine_control());
+        self.conclude(ray, &far, &end, azimuth + end.swept, path);
+    }
+
+    /// Fate, direction and error from the end of the last walk.
+    fn conclude<C: Chart<D>, const D: usize>(
+        &self,
+        ray: &Ray,
+        chart: &C,
+        end: &End<D>,
+        azimuth: f64,
+        path: &mut Path,
+    ) {
+        path.steps += end.steps;
+        let state = chart.state(&end.y);
+        let drift = drift(&self.reversed, ray.energy, &ray.start, &state);
+        path.error_estimate = match end.stop {
+            Stop::Left => drift * self.reversed.sensitivity(ray.energy, &ray.start),
+            _ => drift,
+        };
+        path.fate = match end.stop {
+            Stop::Left => {
+                let n = state.n;
+                path.direction = Some([n[0].hypot(n[1]).atan2(n[2]), azimuth]);
+                Fate::Escaped
+            }
+            Stop::Fell | Stop::Rose | Stop::Sank => Fate::Captured,
+            Stop::GaveUp => Fate::StepLimit,
+        };
+    }
+}
+
+impl<M: Metric> Tracer for Integrator<M> {
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        path.clear();
+        match ray.side {
+            Side::Reversed => self.follow(ray, query, path),
+            Side::Ingoing => self.rise(ray, query, path),
+        }
+    }
+}
+
+/// How far the conserved quantities, and the chart's own identities |n| = 1 and n·J = 0, have
+/// drifted, relative to their natural sizes.
+fn drift<M: Metric>(metric: &M, energy: f64, start: &Inverted<f64>, end: &Inverted<f64>) -> f64 {
+    let size = energy * energy + dot(&start.j, &start.j);
+    let norm = (metric.norm(energy, end) - metric.norm(energy, start)).abs() / (energy * energy + end.q * end.q);
+    let momentum = (end.j[2] - start.j[2]).abs() / size.sqrt();
+    let carter = match (metric.carter(energy, start), metric.carter(energy, end)) {
+        (Some(before), Some(after)) => (after - before).abs() / size,
+        _ => 0.0,
+    };
+    let unit = (dot(&end.n, &end.n) - dot(&start.n, &start.n)).abs();
+    let square = dot(&end.n, &end.j).abs() / size.sqrt();
+    CAUTION * (norm + momentum + carter + unit + square) + f64::EPSILON
+}
+
+/// Where elapsed time and azimuth are counted from.
+#[derive(Clone, Copy, Debug)]
+struct Origin {
+    /// Azimuth of n at the start of the walk.
+    azimuth: f64,
+    /// x·p at the camera, 0 for one at infinity (its infinite distance is what is taken off).
+    radial: f64,
+    /// The chart's time less the Boyer–Lindquist time at the camera, less 2 ln(r/2) for r → ∞.
+    offset: f64,
+}
+
+impl Origin {
+    fn of<M: Metric>(metric: &M, ray: &Ray) -> Self {
+        let Inverted { w, n, q, .. } = ray.start;
+        let massive = metric.horizon() > 0.0;
+        if w > 0.0 {
+            let r = 1.0 / metric.inverse_radius(w, &n);
+            Self { azimuth: ray.azimuth, radial: q / w, offset: metric.time_offset(r) }
+        } else {
+            let offset = if massive { 2.0 * 2f64.ln() } else { 0.0 };
+            Self { azimuth: ray.azimuth, radial: 0.0, offset }
+        }
+    }
+
+    /// For a camera inside the horizon, where Boyer–Lindquist time means nothing.
+    fn within(ray: &Ray) -> Self {
+        Self { azimuth: ray.azimuth, radial: ray.start.q / ray.start.w, offset: f64::NAN }
+    }
+}
+
+/// One step of a walk, kept to be sampled.
+struct Segment<const D: usize> {
+    dense: Dense<f64, D>,
+    /// Parameter at its start.
+    sigma: f64,
+    h: f64,
+    /// The share of it that counts.
+    until: f64,
+}
+
+/// Turns what a walk meets into crossings and points.
+struct Log<'a, C, M, const D: usize> {
+    chart: &'a C,
+    metric: M,
+    query: &'a Query,
+    origin: Origin,
+    path: &'a mut Path,
+    segments: Vec<Segment<D>>,
+}
+
+impl<'a, C: Chart<D>, M: Metric, const D: usize> Log<'a, C, M, D> {
+    fn new(chart: &'a C, metric: M, query: &'a Query, origin: Origin, path: &'a mut Path) -> Self {
+        Self { chart, metric, query, origin, path, segments: Vec::new() }
+    }
+
+    /// Walks, and samples the points if any are wanted.
+    fn walk<R: Method<STAGES>, const STAGES: usize>(
+        &mut self,
+        y: [f64; D],
+        bounds: &Bounds,
+        control: &Control,
+    ) -> End<D> {
+        if self.query.points == 0 {
+            return walk::<_, R, _, D, STAGES>(self.chart, y, bounds, control, self);
+        }
+        let end = walk::<_, R, _, D, STAGES>(self.chart, y, bounds, control, &mut Recorder(self));
+        self.sample();
+        end
+    }
+
+    /// Time since the origin in this chart, along the backward ray.
+    fn chart_time(&self, y: &[f64; D], state: &Inverted<f64>, energy: f64) -> f64 {
+        (state.q / state.w + self.chart.virial(y) - self.origin.radial) / energy
+    }
+
+    /// Points evenly spaced in the walk's parameter, over the part of the ray that is near.
+    fn sample(&mut self) {
+        let start = self.segments.first().map_or(0.0, |s| self.chart.state(&s.dense.at(0.0)).w);
+        let far = if start > 0.0 { start / 1.5 } else { f64::INFINITY }.min(1.0 / 30.0);
+        let near = |s: &Segment<D>, share: f64| self.chart.state(&s.dense.at(share)).w >= far;
+        let parameters = self.segments.iter().flat_map(|s| {
+            (0..=32).map(|k| f64::from(k) / 32.0 * s.until).filter(|t| near(s, *t)).map(|t| s.sigma + t * s.h)
+        });
+        let (first, last) = parameters.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let count = self.query.points;
+        let mut points = Vec::with_capacity(count);
+        let mut segments = self.segments.iter().peekable();
+        for i in 0..count {
+            let sigma = first + (last - first) * i as f64 / (count.max(2) - 1) as f64;
+            while segments.peek().is_some_and(|s| s.sigma + s.h * s.until < sigma) && segments.len() > 1 {
+                segments.next();
+            }
+            let Some(s) = segments.peek() else { break };
+            let y = s.dense.at(((sigma - s.sigma) / s.h).clamp(0.0, s.until));
+            let state = self.chart.state(&y);
+            let [px, py, pz] = state.n.map(|c| c / state.w);
+            points.push([-self.chart_time(&y, &state, self.chart.energy()), px, py, pz]);
+        }
+        self.path.points.extend(points);
+    }
+}
+
+impl<C: Chart<D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D> {
+    const WANTS_SEGMENTS: bool = false;
+
+    fn crossing(&mut self, y: &[f64; D], swept: f64) {
+        if self.path.crossings.len() >= self.query.max_crossings {
+            return;
+        }
+        let state = self.chart.state(y);
+        let r = 1.0 / self.metric.inverse_radius(state.w, &state.n);
+        let elapsed = if self.query.elapsed {
+            self.chart_time(y, &state, self.chart.energy()) - self.metric.time_offset(r) + self.origin.offset
+        } else {
+            f64::NAN
+        };
+        self.path.crossings.push(Crossing {
+            position: state.n.map(|c| c / state.w),
+            r,
+            phi: self.origin.azimuth + swept - self.metric.azimuth_offset(r),
+            elapsed,
+        });
+    }
+
+    fn segment(&mut self, _dense: &Dense<f64, D>, _sigma: f64, _h: f64, _until: f64) {}
+}
+
+/// A log that keeps every step too.
+struct Recorder<'a, 'b, C, M, const D: usize>(&'a mut Log<'b, C, M, D>);
+
+impl<C: Chart<D>, M: Metric, const D: usize> Visitor<D> for Recorder<'_, '_, C, M, D> {
+    const WANTS_SEGMENTS: bool = true;
+
+    fn crossing(&mut self, y: &[f64; D], swept: f64) {
+        self.0.crossing(y, swept);
+    }
+
+    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) {
+        self.0.segments.push(Segment { dense: *dense, sigma, h, until });
+    }
+}

@@ -1,0 +1,75 @@
+//! The chart in which infinity is an ordinary point.
+//!
+//! A ray at x = n/w, parametrised by σ with dσ = w² dλ: a straight line turns n uniformly, at
+//! the rate J, through at most π from infinity to infinity, and w is a sine. Steps are as few
+//! as the bending of light demands, and a ray starts or ends at w = 0 without a limit taken.
+//!
+//! Elapsed time: t = (x·p + T)/E, where dT/dλ = −x·ṗ. (Hamilton's equations give
+//! d(x·p)/dλ = ẋ·p + x·ṗ, and ẋ·p = E ṫ on a null geodesic.) T varies slowly where t does
+//! not, and does not diverge for an ingoing ray from infinity.
+
+use super::flow::Flow;
+use crate::metric::{Inverted, Metric};
+use crate::scalar::Scalar;
+use crate::tensor::dot;
+
+/// Photons of one energy in the inverted chart: the state is (w, n, q, J), and T if `D` is 9.
+#[derive(Clone, Copy, Debug)]
+pub struct InvertedFlow<M, S> {
+    /// The spacetime.
+    pub metric: M,
+    /// −p_t.
+    pub energy: S,
+}
+
+/// The components of a state without T.
+pub const PLAIN: usize = 8;
+/// The components of a state with T.
+pub const TIMED: usize = 9;
+
+/// Splits a state into its named parts.
+#[inline(always)]
+pub fn unpack<S: Scalar, const D: usize>(y: &[S; D]) -> Inverted<S> {
+    Inverted { w: y[0], n: [y[1], y[2], y[3]], q: y[4], j: [y[5], y[6], y[7]] }
+}
+
+/// A state from its named parts, T = 0.
+#[inline(always)]
+pub fn pack<S: Scalar, const D: usize>(state: &Inverted<S>) -> [S; D] {
+    let Inverted { w, n, q, j } = *state;
+    let parts = [w, n[0], n[1], n[2], q, j[0], j[1], j[2]];
+    std::array::from_fn(|i| if i < PLAIN { parts[i] } else { w.constant(0.0) })
+}
+
+impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
+    #[inline(always)]
+    fn derivative(&self, y: &[S; D]) -> [S; D] {
+        let state = unpack(y);
+        let rate = self.metric.inverted_rate(self.energy, &state);
+        let mut slope = pack(&rate);
+        if D == TIMED {
+            // dT/dσ = −x·ṗ/w² = −(n·P)/w, where n·P = q′ − n′·p. It is O(w) at an ingoing
+            // ray's infinity, where the quotient's limit is zero.
+            let pull = rate.q - dot(&rate.n, &state.momentum());
+            let zero = state.w.constant(0.0);
+            let at_infinity = state.w.abs().less(state.w.constant(1e-300));
+            slope[8] = S::select(at_infinity, zero, -(pull / state.w));
+        }
+        slope
+    }
+
+    /// n counts by itself; w against 1/b, the inverse distance of closest approach in flat
+    /// space, and itself; q against the energy; J against its own length.
+    #[inline(always)]
+    fn inverse_scale(&self, y: &[S; D]) -> [S; D] {
+        let Inverted { w, q, j, .. } = unpack(y);
+        let energy = self.energy.abs();
+        let whole = dot(&j, &j).sqrt() + energy;
+        let inverse_whole = whole.recip();
+        let of_w = (energy.mul_add(inverse_whole, w.abs())).recip();
+        let of_q = (q.abs() + energy).recip();
+        let one = w.constant(1.0);
+        let scales = [of_w, one, one, one, of_q, inverse_whole, inverse_whole, inverse_whole];
+        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { w.constant(0.0) })
+    }
+}

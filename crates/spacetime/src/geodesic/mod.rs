@@ -1,0 +1,105 @@
+//! Null geodesics: what a tracer is given and what it finds.
+
+mod affine;
+mod chart;
+mod dense;
+mod flow;
+mod integrator;
+mod inverted;
+mod method;
+mod ray;
+mod straight;
+mod walk;
+mod winding;
+
+pub use affine::AffineFlow;
+pub use dense::Dense;
+pub use flow::Flow;
+pub use integrator::{Integrator, Scheme};
+pub use inverted::InvertedFlow;
+pub use method::{Dop853, Method, Rk4, Step, Tsit5};
+pub use ray::{Ray, Side};
+pub use straight::Straight;
+
+use crate::tensor::Vec3;
+
+/// How a ray ends.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fate {
+    /// It comes from infinity.
+    Escaped,
+    /// It comes out of the past horizon: no light of ours.
+    Captured,
+    /// Given up: too many steps, or steps that cannot be made small enough.
+    #[default]
+    StepLimit,
+}
+
+/// What to find along a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Query {
+    /// Unit normal of the plane through the origin whose crossings are wanted; z for the equator.
+    pub plane: Vec3<f64>,
+    /// How many crossings to keep, the first met going back from the camera.
+    pub max_crossings: usize,
+    /// Whether to integrate the elapsed coordinate time too.
+    pub elapsed: bool,
+    /// How many points along the ray to keep, evenly spaced in its parameter; 0 for none.
+    pub points: usize,
+}
+
+impl Default for Query {
+    /// The first eight equatorial crossings.
+    fn default() -> Self {
+        Self { plane: [0.0, 0.0, 1.0], max_crossings: 8, elapsed: false, points: 0 }
+    }
+}
+
+/// A ray's crossing of the plane asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// Place in the coordinates of the chart in which the ray is traced, M.
+    pub position: Vec3<f64>,
+    /// Boyer–Lindquist radius, M.
+    pub r: f64,
+    /// Boyer–Lindquist azimuth, radians, unwrapped along the ray from the camera.
+    pub phi: f64,
+    /// Coordinate time from the crossing to the camera, M; for a camera at infinity
+    /// less r + 2 ln(r/2) of the camera, r → ∞. NaN unless asked for.
+    pub elapsed: f64,
+}
+
+/// What a tracer finds.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Path {
+    /// How the ray ends.
+    pub fate: Fate,
+    /// Crossings in the order met going back from the camera.
+    pub crossings: Vec<Crossing>,
+    /// Asymptotic direction (θ, φ) that the light comes from, φ unwrapped, if it escaped.
+    pub direction: Option<[f64; 2]>,
+    /// Integration steps tried.
+    pub steps: usize,
+    /// Estimated error: radians of direction where the ray escaped, relative radius elsewhere.
+    pub error_estimate: f64,
+    /// Points (t, x, y, z) in the chart of the ray, M, t ≤ 0 before the camera's, if asked for.
+    pub points: Vec<[f64; 4]>,
+}
+
+impl Path {
+    /// Forgets a ray but keeps the memory.
+    pub fn clear(&mut self) {
+        self.fate = Fate::StepLimit;
+        self.crossings.clear();
+        self.direction = None;
+        self.steps = 0;
+        self.error_estimate = f64::NAN;
+        self.points.clear();
+    }
+}
+
+/// A way to follow rays. Two independent ones for Kerr test each other.
+pub trait Tracer: Send + Sync {
+    /// Follows `ray` into the past and replaces `path` with what it met.
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path);
+}

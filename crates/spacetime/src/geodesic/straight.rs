@@ -1,0 +1,62 @@
+//! Rays of flat spacetime: straight lines, without integration.
+
+use super::{Crossing, Fate, Path, Query, Ray, Tracer};
+use crate::tensor::{cross, dot};
+
+/// The tracer of [`crate::metric::Minkowski`].
+#[derive(Clone, Copy, Debug)]
+pub struct Straight;
+
+impl Tracer for Straight {
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        path.clear();
+        path.fate = Fate::Escaped;
+        path.error_estimate = f64::EPSILON;
+        let n = ray.start.n;
+        let p = ray.start.momentum();
+        let length = dot(&p, &p).sqrt();
+        let v = p.map(|c| c / length);
+        // Azimuth by which the line has turned about the axis, seen from its start.
+        let turned = |to: &[f64; 3]| ray.azimuth + super::winding::turn(&n, to);
+        let theta = (v[0].hypot(v[1])).atan2(v[2]);
+        path.direction = Some([theta, turned(&v)]);
+        let (height, climb) = (dot(&n, &query.plane), dot(&v, &query.plane));
+        // Distance along the line in units of the camera's distance; at infinity no scale is left,
+        // and the crossing lies at x = n/w + v d with w d → −n·v.
+        let share = -height / climb;
+        if query.max_crossings > 0 && height * climb < 0.0 {
+            let w = ray.start.w;
+            let at = |share: f64| -> [f64; 3] {
+                if w > 0.0 {
+                    std::array::from_fn(|i| (n[i] + share * v[i]) / w)
+                } else {
+                    // x = b + v d, b = v × J, the point closest to the origin.
+                    let b = cross(&v, &ray.start.j).map(|c| c / length);
+                    let d = -dot(&b, &query.plane) / climb;
+                    std::array::from_fn(|i| b[i] + d * v[i])
+                }
+            };
+            let position = at(share);
+            let r = dot(&position, &position).sqrt();
+            let elapsed = if !query.elapsed {
+                f64::NAN
+            } else if w > 0.0 {
+                share / w
+            } else {
+                // The camera's distance r is taken off (there is no mass to delay light).
+                dot(&position, &v)
+            };
+            path.crossings.push(Crossing { position, r, phi: turned(&position), elapsed });
+        }
+        if query.points > 0 && ray.start.w > 0.0 {
+            let w = ray.start.w;
+            let last = 3.0;
+            let count = query.points;
+            path.points.extend((0..count).map(|i| {
+                let share = last * i as f64 / (count.max(2) - 1) as f64;
+                let [x, y, z]: [f64; 3] = std::array::from_fn(|k| (n[k] + share * v[k]) / w);
+                [-share / w, x, y, z]
+            }));
+        }
+    }
+}

@@ -1,0 +1,208 @@
+//! One ray's walk through one chart: steps, their control, and what is met on the way.
+
+use super::chart::Chart;
+use super::dense::{Dense, root};
+use super::method::Method;
+use super::winding;
+use crate::tensor::{Vec3, dot};
+
+/// How steps are chosen.
+#[derive(Clone, Copy, Debug)]
+pub struct Control {
+    /// Bound on the error estimate of a step; of no meaning to a method without one.
+    pub tolerance: f64,
+    /// Size of every step of a method without an error estimate.
+    pub step: f64,
+    /// Steps, accepted or not, after which a ray is given up.
+    pub max_steps: usize,
+    /// Largest angle, in radians, that a step may turn through.
+    pub max_turn: f64,
+}
+
+/// Where the walk stops, unless steps run out.
+#[derive(Clone, Copy, Debug)]
+pub struct Bounds {
+    /// Unit normal of the plane whose crossings are wanted.
+    pub plane: Vec3<f64>,
+    /// 1/r of the horizon; infinite where there is none.
+    pub inverse_horizon: f64,
+    /// For a photon that rises through the horizon: the 1/r at which it is well outside.
+    pub inverse_exit: Option<f64>,
+}
+
+/// Who is told what the photon meets.
+pub trait Visitor<const D: usize> {
+    /// Whether [`Visitor::segment`] wants to be called.
+    const WANTS_SEGMENTS: bool;
+    /// The plane was crossed at state `y`, `swept` radians of azimuth after the start.
+    fn crossing(&mut self, y: &[f64; D], swept: f64);
+    /// A step from parameter `sigma`, of size `h`, counts up to θ = `until`.
+    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64);
+}
+
+/// Why the walk ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The photon left the chart's reach.
+    Left,
+    /// It fell through the horizon.
+    Fell,
+    /// It rose through the horizon and is outside.
+    Rose,
+    /// It turned back before it was outside.
+    Sank,
+    /// Steps ran out or could not be made small enough.
+    GaveUp,
+}
+
+/// The end of a walk.
+#[derive(Clone, Copy, Debug)]
+pub struct End<const D: usize> {
+    /// Why it ended.
+    pub stop: Stop,
+    /// The state at the end.
+    pub y: [f64; D],
+    /// Azimuth swept, radians.
+    pub swept: f64,
+    /// Steps tried.
+    pub steps: usize,
+}
+
+/// Follows the photon from `y` until something stops it.
+pub fn walk<C, M, V, const D: usize, const STAGES: usize>(
+    chart: &C,
+    mut y: [f64; D],
+    bounds: &Bounds,
+    control: &Control,
+    visitor: &mut V,
+) -> End<D>
+where
+    C: Chart<D>,
+    M: Method<STAGES>,
+    V: Visitor<D>,
+{
+    let adaptive = M::ERROR_ORDER > 0.0;
+    let height = |y: &[f64; D]| dot(&place::<C, D>(y), &bounds.plane);
+    let mut slope = chart.derivative(&y);
+    let mut h = if adaptive { chart.step_for(&y, 0.3) } else { control.step };
+    // A photon that starts in the plane has not crossed it.
+    let mut above = Some(height(&y)).filter(|g| *g != 0.0).unwrap_or_else(|| height(&slope));
+    let (mut swept, mut sigma, mut steps, mut refused) = (0.0, 0.0, 0, false);
+    loop {
+        if steps >= control.max_steps {
+            return End { stop: Stop::GaveUp, y, swept, steps };
+        }
+        steps += 1;
+        if adaptive {
+            h = h.min(chart.step_for(&y, control.max_turn));
+        }
+        let step = M::step(chart, &y, &slope, h);
+        let finite = step.error.is_finite() && step.end.iter().take(D & !1).all(|c| c.is_finite());
+        let ratio = step.error / control.tolerance;
+        if !finite || (adaptive && ratio > 1.0) {
+            refused = true;
+            h *= if finite { growth(ratio, M::ERROR_ORDER).clamp(0.1, 0.9) } else { 0.1 };
+            if !adaptive || h < chart.step_for(&y, 1e-14) {
+                return End { stop: Stop::GaveUp, y, swept, steps };
+            }
+            continue;
+        }
+        let end_slope = step.end_slope.unwrap_or_else(|| chart.derivative(&step.end));
+
+        // What happens within this step?
+        let reach = chart.reach(&step.end);
+        let depth = chart.inverse_radius(&step.end);
+        let below = height(&step.end);
+        let crosses = (above > 0.0) != (below > 0.0) && below != 0.0;
+        let grazes = !crosses && above * height(&slope) < 0.0 && below * height(&end_slope) > 0.0;
+        let leaves = reach < 0.0;
+        let falls = bounds.inverse_exit.is_none() && depth > bounds.inverse_horizon;
+        let turn = winding::turn(&place::<C, D>(&y), &place::<C, D>(&step.end));
+        let near_axis = turn.abs() > winding::DOUBTFUL;
+        let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
+        let mut stop = if falls { Some(Stop::Fell) } else { None };
+        if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis {
+            let dense = M::dense(chart, &y, &step, &end_slope, h);
+            let mut until = 1.0;
+            if leaves {
+                until = root(|t| chart.reach(&dense.at(t)), chart.reach(&y), reach);
+                stop = Some(Stop::Left);
+            } else if falls {
+                let above_horizon = |t: f64| bounds.inverse_horizon - chart.inverse_radius(&dense.at(t));
+                until = root(above_horizon, above_horizon(0.0), bounds.inverse_horizon - depth);
+            }
+            let level = |t: f64| height(&dense.at(t));
+            let mut meet = |theta: f64| {
+                if theta < until {
+                    let sweep = winding::sweep(&dense, C::PLACE, 0.0, theta);
+                    visitor.crossing(&dense.at(theta), swept + sweep);
+                }
+            };
+            if crosses {
+                // The plane where the step began counts as left behind, not as met.
+                let start = height(&y);
+                meet(root(level, if start == 0.0 { above * 1e-300 } else { start }, below));
+            } else if grazes && let Some(middle) = beyond_plane(&level, above) {
+                let other = level(middle);
+                meet(root(|t| level(t * middle), above, other) * middle);
+                let rest = 1.0 - middle;
+                meet(middle + root(|t| level(middle + t * rest), other, below) * rest);
+            }
+            if V::WANTS_SEGMENTS {
+                visitor.segment(&dense, sigma, h, until);
+            }
+            if until < 1.0 {
+                next.y = dense.at(until);
+            }
+            next.swept = swept + winding::sweep(&dense, C::PLACE, 0.0, until);
+        }
+        if let Some(exit) = bounds.inverse_exit {
+            if depth < exit {
+                stop = Some(Stop::Rose);
+            } else if depth < bounds.inverse_horizon && depth > chart.inverse_radius(&y) {
+                stop = Some(Stop::Sank);
+            }
+        }
+        if let Some(stop) = stop {
+            return End { stop, ..next };
+        }
+        if below != 0.0 {
+            above = below;
+        }
+        sigma += h;
+        if adaptive {
+            // After a refusal the step does not grow at once.
+            h *= growth(ratio, M::ERROR_ORDER).clamp(0.2, if refused { 1.0 } else { 2.0 });
+            refused = false;
+        }
+        (y, slope, swept) = (next.y, end_slope, next.swept);
+    }
+}
+
+#[inline(always)]
+fn place<C: Chart<D>, const D: usize>(y: &[f64; D]) -> Vec3<f64> {
+    [y[C::PLACE], y[C::PLACE + 1], y[C::PLACE + 2]]
+}
+
+/// The factor by which a step may change for its error to be 0.9^order of the tolerance.
+fn growth(ratio: f64, order: f64) -> f64 {
+    0.9 * ratio.max(1e-10).powf(-1.0 / order)
+}
+
+/// A θ at which a height that dips towards zero within the step has passed it.
+fn beyond_plane(level: &impl Fn(f64) -> f64, above: f64) -> Option<f64> {
+    // Ternary search for the least height on the side where the step began.
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..60 {
+        let (left, right) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
+        let (at_left, at_right) = (level(left) * above, level(right) * above);
+        if at_left < 0.0 {
+            return Some(left);
+        }
+        if at_right < 0.0 {
+            return Some(right);
+        }
+        if at_left < at_right { high = right } else { low = left }
+    }
+    None
+}

@@ -1,0 +1,181 @@
+//! Stationary spacetimes in Cartesian-like coordinates (t, x, y, z).
+//!
+//! A spacetime is a small file that gives its metric components; the equations of motion
+//! follow from them by dual numbers. One that can do better overrides them.
+
+mod kerr;
+mod minkowski;
+mod schwarzschild;
+
+pub use kerr::Kerr;
+pub use minkowski::Minkowski;
+pub use schwarzschild::Schwarzschild;
+
+use crate::dual::Dual;
+use crate::scalar::Scalar;
+use crate::tensor::{Tensor, Vec3, contract, cross, dot, inverse, pair, product};
+
+/// A stationary, asymptotically flat spacetime.
+///
+/// Photons obey Hamilton's equations for H = ½ g^{μν} p_μ p_ν = 0, with p_t = −energy conserved.
+pub trait Metric: Copy + Send + Sync {
+    /// g_{μν} at x. Nothing depends on t.
+    fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S>;
+
+    /// g^{μν} at x.
+    #[inline(always)]
+    fn inverse_components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
+        inverse(&self.components(x))
+    }
+
+    /// The radius by which the horizon and disks are measured, in M.
+    fn radius<S: Scalar>(&self, x: &Vec3<S>) -> S;
+
+    /// The radius of the horizon, 0 where there is none.
+    fn horizon(&self) -> f64;
+
+    /// dx/dλ and dp/dλ for affine λ.
+    #[inline(always)]
+    fn rate<S: Scalar>(&self, energy: S, x: &Vec3<S>, p: &Vec3<S>) -> Rate<S> {
+        rate_from_components(self, energy, x, p)
+    }
+
+    /// The same in the inverted chart of [`crate::geodesic::inverted`].
+    #[inline(always)]
+    fn inverted_rate<S: Scalar>(&self, energy: S, state: &Inverted<S>) -> Inverted<S> {
+        inverted_from_rate(self, energy, state)
+    }
+
+    /// The spacetime reversed in time, in the chart in which light falling into it is regular at
+    /// the horizon. A static spacetime is its own mirror image.
+    fn reversed(&self) -> Self {
+        *self
+    }
+
+    /// Azimuth of n less the Boyer–Lindquist azimuth, at radius r outside the horizon.
+    fn azimuth_offset(&self, _r: f64) -> f64 {
+        0.0
+    }
+
+    /// Time of this chart less the Boyer–Lindquist time, at radius r outside the horizon,
+    /// growing as 2 ln r far away if at all.
+    fn time_offset(&self, _r: f64) -> f64 {
+        0.0
+    }
+
+    /// Whether a ray followed backwards from inside the horizon (Side::Ingoing of
+    /// [`crate::geodesic::Side`], with its own energy and J_z) rises through it into our sky.
+    fn rises(&self, _energy: f64, _angular_momentum: f64) -> bool {
+        false
+    }
+
+    /// A ray of Side::Ingoing outside the horizon, in the chart of Side::Reversed.
+    fn change_sheet(&self, _energy: f64, state: &Inverted<f64>) -> Inverted<f64> {
+        *state
+    }
+
+    /// How an error in a ray's conserved quantities grows into one of its direction: about one,
+    /// and without bound towards the critical curve.
+    fn sensitivity(&self, _energy: f64, _start: &Inverted<f64>) -> f64 {
+        1.0
+    }
+
+    /// 2H = g^{μν} p_μ p_ν, zero for light.
+    fn norm(&self, energy: f64, state: &Inverted<f64>) -> f64 {
+        let p = state.momentum();
+        if state.w.abs() < 1e-12 {
+            return dot(&p, &p) - energy * energy;
+        }
+        let p = [-energy, p[0], p[1], p[2]];
+        product(&self.inverse_components(&state.n.map(|c| c / state.w)), &p, &p)
+    }
+
+    /// A further constant of the motion beside energy and L_z, where there is one.
+    fn carter(&self, _energy: f64, _state: &Inverted<f64>) -> Option<f64> {
+        None
+    }
+
+    /// 1/radius in the inverted chart, regular at infinity.
+    #[inline(always)]
+    fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
+        self.radius(&n.map(|c| c / w)).recip()
+    }
+}
+
+/// The right-hand side of Hamilton's equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Rate<S> {
+    /// dx/dλ.
+    pub velocity: Vec3<S>,
+    /// dp/dλ.
+    pub force: Vec3<S>,
+}
+
+/// A photon in the inverted chart, or the rate at which its variables change.
+///
+/// Position x = n/w; momentum p = q n + w J × n, so q = n·p and J = x × p. With the
+/// parameter σ, dσ = w² dλ, infinity (w = 0) is an ordinary point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inverted<S> {
+    /// Inverse Euclidean distance from the origin, 1/M.
+    pub w: S,
+    /// Unit vector to the photon.
+    pub n: Vec3<S>,
+    /// Radial momentum.
+    pub q: S,
+    /// Angular momentum.
+    pub j: Vec3<S>,
+}
+
+impl<S: Scalar> Inverted<S> {
+    /// p = q n + w J × n.
+    #[inline(always)]
+    pub fn momentum(&self) -> Vec3<S> {
+        let k = cross(&self.j, &self.n);
+        std::array::from_fn(|i| self.q.mul_add(self.n[i], self.w * k[i]))
+    }
+}
+
+/// Hamilton's equations from the components of the metric alone:
+///   dxᵘ/dλ = g^{μν} p_ν,   dp_i/dλ = −½ ∂_i g^{μν} p_μ p_ν = ½ ∂_i g_{μν} ẋᵘ ẋᵛ,
+/// the derivatives exact by dual numbers.
+#[inline(always)]
+pub fn rate_from_components<M: Metric, S: Scalar>(
+    metric: &M,
+    energy: S,
+    x: &Vec3<S>,
+    p: &Vec3<S>,
+) -> Rate<S> {
+    let lowered = metric.components(&Dual::variables(*x));
+    let g: Tensor<S> = lowered.map(|row| row.map(|c| c.value));
+    let rate = contract(&inverse(&g), &[-energy, p[0], p[1], p[2]]);
+    let force = std::array::from_fn(|i| {
+        let slope: Tensor<S> = lowered.map(|row| row.map(|c| c.gradient[i]));
+        pair(&contract(&slope, &rate), &rate) * 0.5
+    });
+    Rate { velocity: [rate[1], rate[2], rate[3]], force }
+}
+
+/// The inverted chart's equations from Hamilton's:
+///   w′ = −n·ẋ,   n′ = (ẋ − n n·ẋ)/w,   q′ = (n′·p + n·ṗ/w²),   J′ = (ẋ × p + x × ṗ)/w².
+///
+/// Divisions by w amplify rounding: relative errors are about 1e-16/w, and w = 0 cannot be
+/// evaluated. A metric with a closed form overrides this.
+#[inline(always)]
+pub fn inverted_from_rate<M: Metric, S: Scalar>(metric: &M, energy: S, state: &Inverted<S>) -> Inverted<S> {
+    let Inverted { w, n, .. } = *state;
+    let p = state.momentum();
+    let inverse_w = w.recip();
+    let x = n.map(|c| c * inverse_w);
+    let Rate { velocity, force } = metric.rate(energy, &x, &p);
+    let along = dot(&n, &velocity);
+    let turn: Vec3<S> = std::array::from_fn(|i| (velocity[i] - n[i] * along) * inverse_w);
+    let push = force.map(|f| f * inverse_w * inverse_w);
+    let (swept, torque) = (cross(&velocity, &p), cross(&x, &push));
+    Inverted {
+        w: -along,
+        n: turn,
+        q: dot(&turn, &p) + dot(&n, &push),
+        j: std::array::from_fn(|i| (swept[i] * inverse_w).mul_add(inverse_w, torque[i])),
+    }
+}
