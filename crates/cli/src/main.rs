@@ -1,1 +1,124 @@
-fn main() {}
+//! The program `kerrscope`: pictures of black holes, and the numbers behind them.
+//!
+//! One file a command. Exit codes: 0 done, 1 a check failed or a file could not be written,
+//! 2 the input was wrong, 130 interrupted.
+
+mod bench;
+mod orbits;
+mod progress;
+mod render;
+mod report;
+mod shadow;
+mod side_view;
+mod trace;
+mod validate;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use report::Failure;
+use std::process::ExitCode;
+
+/// Pictures of black holes, every pixel along null geodesics of the actual metric.
+///
+/// Without a command it renders the built-in scene to kerrscope.png.
+#[derive(Parser, Debug)]
+#[command(name = "kerrscope", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand, Debug)]
+enum Command {
+    /// Draw a scene
+    Render(render::Arguments),
+    /// Follow one ray
+    Trace(trace::Arguments),
+    /// Horizon, circular orbits and efficiency of a hole
+    Orbits(orbits::Arguments),
+    /// The critical curve: the edge of a hole's shadow
+    Shadow(shadow::Arguments),
+    /// Compute every reference number and compare it with its source
+    Validate(validate::Arguments),
+    /// Rays per second, and how exact they are
+    Bench(bench::Arguments),
+}
+
+/// How results are printed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// For reading
+    #[default]
+    Text,
+    /// For programs
+    Json,
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command.unwrap_or(Command::Render(render::Arguments::default())) {
+        Command::Render(a) => render::run(&a),
+        Command::Trace(a) => trace::run(&a),
+        Command::Orbits(a) => orbits::run(&a),
+        Command::Shadow(a) => shadow::run(&a),
+        Command::Validate(a) => validate::run(&a),
+        Command::Bench(a) => bench::run(&a),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// Prints to standard output; a reader that has gone away is no fault.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::{ErrorKind, Write};
+    match writeln!(std::io::stdout().lock(), "{text}") {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(Failure::Failed(format!("standard output: {e}"))),
+        _ => Ok(()),
+    }
+}
+
+/// Prints a value as JSON.
+fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value).map_err(|e| Failure::Failed(e.to_string()))?;
+    print(&text)
+}
+
+/// A spin in [−1, 1], from the command line.
+fn parse_spin(text: &str) -> Result<f64, String> {
+    let spin: f64 = text.parse().map_err(|_| "give a number from -1 to 1".to_owned())?;
+    if (-1.0..=1.0).contains(&spin) { Ok(spin) } else { Err("a spin lies between -1 and 1".to_owned()) }
+}
+
+/// An inclination in degrees, from the command line.
+fn parse_inclination(text: &str) -> Result<f64, String> {
+    let degrees: f64 = text.parse().map_err(|_| "give degrees from 0 to 180".to_owned())?;
+    if (0.0..=180.0).contains(&degrees) { Ok(degrees) } else { Err("an inclination lies between 0 and 180 degrees".to_owned()) }
+}
+
+/// A finite number, from the command line.
+fn parse_finite(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err("give a finite number".to_owned()),
+    }
+}
+
+/// A distance in M, from the command line; may be infinite.
+fn parse_distance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(x) if x > 0.0 => Ok(x),
+        _ => Err("give a positive number of M, or inf".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn arguments_are_consistent() {
+        Arguments::command().debug_assert();
+    }
+}

@@ -2,4 +2,13 @@
 
 pub use kerrscope_spacetime as spacetime;
 
+pub mod camera;
+pub mod disk;
+pub mod display;
 pub mod light;
+pub mod output;
+pub mod render;
+pub mod scene;
+pub mod sky;
+pub mod texture;
+pub mod validate;

@@ -51,7 +51,7 @@ const EXIT: f64 = 1.1;
 /// use kerrscope_spacetime::observer::impact_ray;
 ///
 /// let spin = 0.9;
-/// let ray = impact_ray(spin, 60f64.to_radians(), f64::INFINITY, [-8.0, 2.0])?;
+/// let ray = impact_ray(Some(spin), 60f64.to_radians(), f64::INFINITY, [-8.0, 2.0])?;
 /// let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-10 }, 10_000);
 /// let mut path = Path::default();
 /// tracer.trace(&ray, &Query::default(), &mut path);

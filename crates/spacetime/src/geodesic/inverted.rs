@@ -27,6 +27,9 @@ pub const PLAIN: usize = 8;
 /// The components of a state with T.
 pub const TIMED: usize = 9;
 
+/// 1/r beyond which the elapsed time of an outgoing ray is not kept accurate.
+const LATEST: f64 = 1e-5;
+
 /// Splits a state into its named parts.
 #[inline(always)]
 pub fn unpack<S: Scalar, const D: usize>(y: &[S; D]) -> Inverted<S> {
@@ -59,7 +62,8 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
     }
 
     /// n counts by itself; w against 1/b, the inverse distance of closest approach in flat
-    /// space, and itself; q against the energy; J against its own length.
+    /// space, and itself; q against the energy; J against its own length; T against r p,
+    /// as long as a crossing may be met: on the way out it grows as 4 ln r, without end.
     #[inline(always)]
     fn inverse_scale(&self, y: &[S; D]) -> [S; D] {
         let Inverted { w, q, j, .. } = unpack(y);
@@ -70,6 +74,7 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
         let of_q = (q.abs() + energy).recip();
         let one = w.constant(1.0);
         let scales = [of_w, one, one, one, of_q, inverse_whole, inverse_whole, inverse_whole];
-        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { w.constant(0.0) })
+        let of_time = S::select(w.less(w.constant(LATEST)), w.constant(0.0), w * of_q);
+        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { of_time })
     }
 }

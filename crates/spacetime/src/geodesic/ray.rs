@@ -42,6 +42,14 @@ impl Ray {
         Self { start, energy, side, azimuth }
     }
 
+    /// The same ray turned about the z axis by an angle in radians.
+    pub fn turned(&self, angle: f64) -> Self {
+        let (sin, cos) = angle.sin_cos();
+        let turn = |v: Vec3<f64>| [cos * v[0] - sin * v[1], sin * v[0] + cos * v[1], v[2]];
+        let start = Inverted { n: turn(self.start.n), j: turn(self.start.j), ..self.start };
+        Self { start, azimuth: self.azimuth + angle, ..*self }
+    }
+
     /// On the axis, takes the azimuth from the direction in which the ray leaves it.
     pub(crate) fn aim_azimuth(&mut self) {
         let [x, y, _] = self.start.n;

@@ -2,6 +2,7 @@
 
 use super::{Crossing, Fate, Path, Query, Ray, Tracer};
 use crate::tensor::{cross, dot};
+use std::f64::consts::PI;
 
 /// The tracer of [`crate::metric::Minkowski`].
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +20,10 @@ impl Tracer for Straight {
         // Azimuth by which the line has turned about the axis, seen from its start.
         let turned = |to: &[f64; 3]| ray.azimuth + super::winding::turn(&n, to);
         let theta = (v[0].hypot(v[1])).atan2(v[2]);
-        path.direction = Some([theta, turned(&v)]);
+        let from_infinity = ray.start.w == 0.0 && n[0].hypot(n[1]) > 0.0;
+        // From infinity to infinity it turns by half a circle, in the sense of J_z.
+        let phi = if from_infinity { ray.azimuth + PI.copysign(ray.start.j[2]) } else { turned(&v) };
+        path.direction = Some([theta, phi]);
         let (height, climb) = (dot(&n, &query.plane), dot(&v, &query.plane));
         // Distance along the line in units of the camera's distance; at infinity no scale is left,
         // and the crossing lies at x = n/w + v d with w d → −n·v.

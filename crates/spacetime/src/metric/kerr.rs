@@ -135,12 +135,13 @@ impl Metric for Kerr {
     /// The field is scale-free: at x = n/w with spin s it is that at n with spin ŝ = s w, and
     /// f = w F with F = 2r̂/Σ̂, r̂ = w r. Writing P = dp/dσ and using the Jacobi identity for
     /// the terms of first order in s, every division by w cancels (k = J × n):
-    ///   w′ = wFℓ n·l − q
-    ///   n′ = k − Fℓ(l − n n·l)
+    ///   w′ = wc − q,   n′ = k − Fℓ l + c n,   c = Fℓ n·l
     ///   q′ = w n′·k + n·P
     ///   J′ = s w Fℓŵ ẑ×J + s² w {(Fℓŵ/r̂)(p_z n + n_z p) + n_z [K̂/(r̂Σ̂) − Fℓ²/(r̂²Σ̂)] n} × ẑ
     /// with ŵ = 1/(r̂² + ŝ²) and
     ///   n·P = K̂ n·∇r̂ + Fℓ(ℓ − E) − Fℓ² ŝ² n_z²/(r̂²Σ̂),   n·∇r̂ = (r̂/Σ̂)(1 + ŝ² n_z²/r̂²).
+    /// Any c leaves x = n/w unchanged. With this one an error in |n| would grow around a photon
+    /// orbit; multiplied by 3 − 2|n|², which is one, it decays.
     #[inline(always)]
     fn inverted_rate<S: Scalar>(&self, energy: S, state: &Inverted<S>) -> Inverted<S> {
         let Inverted { w, n, q, j } = *state;
@@ -152,8 +153,8 @@ impl Metric for Kerr {
         let f = field.r * field.inverse_sigma * 2.0;
         let drift = f * l;
         let radial = f * along_r;
-        let across = dot(&n, &field.l);
-        let turn: Vec3<S> = std::array::from_fn(|i| k[i] - drift * (field.l[i] - n[i] * across));
+        let lengthening = drift * dot(&n, &field.l) * (-(dot(&n, &n) * 2.0) + 3.0);
+        let turn: Vec3<S> = std::array::from_fn(|i| k[i] - drift * field.l[i] + n[i] * lengthening);
         let height = s * n[2] * field.inverse_r;
         let flattening = height.squared();
         let oblate = drift * l * field.inverse_sigma;
@@ -170,7 +171,7 @@ impl Metric for Kerr {
             * (radial * field.inverse_sigma - oblate * field.inverse_r);
         let torque = |i: usize| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i];
         Inverted {
-            w: w * drift * across - q,
+            w: w * lengthening - q,
             n: turn,
             q: w * dot(&turn, &k) + pull,
             j: [torque(1) - precession * j[1], precession * j[0] - torque(0), w.constant(0.0)],

@@ -1,8 +1,8 @@
 //! Flat spacetime.
 
-use super::{Metric, Rate};
+use super::{Inverted, Metric, Rate};
 use crate::scalar::Scalar;
-use crate::tensor::{Tensor, Vec3, dot};
+use crate::tensor::{Tensor, Vec3, cross, dot};
 
 /// Flat spacetime in Cartesian coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,5 +32,17 @@ impl Metric for Minkowski {
     #[inline(always)]
     fn rate<S: Scalar>(&self, _energy: S, x: &Vec3<S>, p: &Vec3<S>) -> Rate<S> {
         Rate { velocity: *p, force: [x[0].constant(0.0); 3] }
+    }
+
+    /// w′ = −q, n′ = J × n, q′ = wJ²; J is conserved.
+    #[inline(always)]
+    fn inverted_rate<S: Scalar>(&self, _energy: S, state: &Inverted<S>) -> Inverted<S> {
+        let Inverted { w, n, q, j } = *state;
+        Inverted { w: -q, n: cross(&j, &n), q: w * dot(&j, &j), j: [w.constant(0.0); 3] }
+    }
+
+    #[inline(always)]
+    fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
+        w / dot(n, n).sqrt()
     }
 }

@@ -1,0 +1,154 @@
+//! `kerrscope render`: a scene becomes a picture.
+
+use crate::progress;
+use crate::report::Failure;
+use crate::{Format, print, print_json};
+use kerrscope::output::Provenance;
+use kerrscope::output::png::{Depth, Png};
+use kerrscope::render::{Film, Stage, draw, instruction_level};
+use kerrscope::scene::Scene;
+use serde::Serialize;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Draws a scene file, or the built-in scene.
+#[derive(clap::Args, Debug, Default)]
+#[command(after_help = "Examples:\n  \
+    kerrscope render scenes/thesis-4.8.toml -o hole.png\n  \
+    kerrscope render --set spacetime.spin=0.5 --set render.width=1920 --set render.height=1080")]
+pub struct Arguments {
+    /// Scene file (TOML); without one, the built-in scene
+    scene: Option<PathBuf>,
+    /// File to write; may be given several times. Without it, the scene's name with .png here
+    #[arg(short, long, value_name = "FILE")]
+    output: Vec<PathBuf>,
+    /// Override a key of the scene; may be given several times
+    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
+    /// Threads to use; without it, one for each processor
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// What traces the rays (as --set render.engine=…)
+    #[arg(long, value_name = "ENGINE")]
+    engine: Option<String>,
+    /// How to print what was done
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+#[derive(Serialize)]
+struct Output {
+    outputs: Vec<String>,
+    wall_s: f64,
+    rays: u64,
+    rays_given_up: u64,
+    total_flux_jy: Option<f64>,
+    centroid: Option<[f64; 2]>,
+    size: Option<[f64; 2]>,
+    error_estimate: f64,
+    error_estimate_99: f64,
+    error_estimate_max: f64,
+    instruction_level: &'static str,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let start = Instant::now();
+    let mut overrides = arguments.set.clone();
+    overrides.extend(arguments.engine.iter().map(|engine| format!("render.engine={engine}")));
+    let scene = Scene::load(arguments.scene.as_deref(), &overrides)?;
+    let outputs = outputs(arguments)?;
+    let stage = Stage::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
+    let film = draw_in_pool(&stage, arguments.threads)?;
+    for path in &outputs {
+        write(&scene, &film, path)?;
+    }
+    report(arguments, &stage, &film, &outputs, start.elapsed().as_secs_f64())
+}
+
+/// The files to write, every one of a format that is known.
+fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
+    if arguments.output.is_empty() {
+        let stem = arguments.scene.as_deref().and_then(Path::file_stem);
+        let name = stem.map_or_else(|| PathBuf::from("kerrscope"), PathBuf::from);
+        // Not `with_extension`: a name such as thesis-4.8 has a dot of its own.
+        let mut name = name.into_os_string();
+        name.push(".png");
+        return Ok(vec![name.into()]);
+    }
+    let wrong: Vec<String> = arguments
+        .output
+        .iter()
+        .filter(|path| !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")))
+        .map(|path| format!("{}: pictures can be written as .png", path.display()))
+        .collect();
+    if wrong.is_empty() { Ok(arguments.output.clone()) } else { Err(Failure::Input(wrong.join("\nerror: "))) }
+}
+
+fn draw_in_pool(stage: &Stage, threads: Option<NonZeroUsize>) -> Result<Film, Failure> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads.map_or(0, NonZeroUsize::get))
+        .build()
+        .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
+    let stopped = progress::stop_flag();
+    let bar = progress::bar(stage.rays());
+    let film = pool.install(|| draw(stage, stopped, &|rays| bar.inc(rays)));
+    bar.finish_and_clear();
+    film.ok_or(Failure::Interrupted)
+}
+
+fn write(scene: &Scene, film: &Film, path: &Path) -> Result<(), Failure> {
+    let made = Provenance {
+        version: env!("CARGO_PKG_VERSION").to_owned(),
+        scene_toml: scene.to_toml(),
+        seed: scene.render.seed,
+        instruction_level: instruction_level().to_owned(),
+    };
+    let display = kerrscope::display::Display { exposure: scene.display.exposure, tone: match scene.display.tone { kerrscope::scene::Tone::Neutral => kerrscope::display::Tone::Neutral, kerrscope::scene::Tone::None => kerrscope::display::Tone::None } };
+    let depth = if scene.display.bits == 16 { Depth::Sixteen } else { Depth::Eight };
+    Png { display, depth }
+        .write(path, film.width, film.height, &film.pixels, &made)
+        .map_err(|e| Failure::Failed(e.to_string()))
+}
+
+fn report(
+    arguments: &Arguments,
+    stage: &Stage,
+    film: &Film,
+    outputs: &[PathBuf],
+    wall_s: f64,
+) -> Result<(), Failure> {
+    let tally = &film.tally;
+    let names: Vec<String> = outputs.iter().map(|path| path.display().to_string()).collect();
+    if arguments.format == Format::Json {
+        let pixel = stage.camera().pixel_size();
+        let moments = film.moments(pixel).filter(|_| pixel.is_finite());
+        return print_json(&Output {
+            outputs: names,
+            wall_s,
+            rays: tally.rays,
+            rays_given_up: tally.given_up,
+            total_flux_jy: None,
+            centroid: moments.map(|m| m.centroid),
+            size: moments.map(|m| m.size),
+            error_estimate: tally.quantile(0.5),
+            error_estimate_99: tally.quantile(0.99),
+            error_estimate_max: tally.worst,
+            instruction_level: instruction_level(),
+        });
+    }
+    print(&format!(
+        "Saved {}: {} × {} pixels, {} rays in {wall_s:.2} s",
+        names.join(", "),
+        film.width,
+        film.height,
+        tally.rays
+    ))?;
+    if tally.given_up > 0 {
+        print(&format!(
+            "{} rays were given up after render.max_steps steps and are dark; raise it to follow them.",
+            tally.given_up
+        ))?;
+    }
+    Ok(())
+}

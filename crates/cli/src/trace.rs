@@ -1,0 +1,283 @@
+//! `kerrscope trace`: one ray, and what it meets.
+
+use crate::report::Failure;
+use crate::side_view;
+use crate::{parse_distance, parse_finite, parse_inclination, parse_spin, print, print_json};
+use clap::ValueEnum;
+use kerrscope::camera::Camera;
+use kerrscope::render::{Sampler, tracer};
+use kerrscope::scene::Scene;
+use kerrscope::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
+use kerrscope::spacetime::kerr::{horizons, redshift_factor};
+use kerrscope::spacetime::metric::Kerr;
+use kerrscope::spacetime::observer::impact_ray;
+use serde::Serialize;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// The ray is that of a pixel of a scene, or that of impact parameters seen by a static
+/// observer. Lengths and times in M, angles in radians, in Boyer-Lindquist coordinates.
+#[derive(clap::Args, Debug)]
+#[command(after_help = "Examples:\n  \
+    kerrscope trace --spin 0.9 --inclination 60 --alpha -11.35 --beta 2 --format json\n  \
+    kerrscope trace scenes/thesis-4.8.toml --pixel 200,80\n  \
+    kerrscope trace --spin 0.9 --inclination 85 --distance 20 --alpha 4 --beta 3 --path 400 --format svg > ray.svg")]
+pub struct Arguments {
+    /// Scene file (TOML); without one, the built-in scene, or the hole given by --spin
+    #[arg(conflicts_with_all = ["spin", "inclination", "distance"])]
+    scene: Option<PathBuf>,
+    /// Spin a, from -1 to 1
+    #[arg(long, value_name = "A", value_parser = parse_spin, allow_negative_numbers = true, requires = "inclination")]
+    spin: Option<f64>,
+    /// Inclination in degrees
+    #[arg(long, value_name = "DEG", value_parser = parse_inclination, requires = "spin")]
+    inclination: Option<f64>,
+    /// Boyer-Lindquist radius in M at which the ray starts, or inf [default: 1000]
+    #[arg(long, value_name = "R", value_parser = parse_distance, requires = "spin")]
+    distance: Option<f64>,
+    /// Pixel of the scene's picture, counted from 0,0 at the top left
+    #[arg(long, value_name = "X,Y", value_delimiter = ',', num_args = 1, conflicts_with_all = ["spin", "alpha", "beta"])]
+    pixel: Vec<u32>,
+    /// Which of the pixel's samples; without it, the pixel's centre
+    #[arg(long, value_name = "K", requires = "pixel")]
+    sample: Option<u32>,
+    /// Impact parameter to the right, M
+    #[arg(long, value_name = "M", value_parser = parse_finite, allow_negative_numbers = true, requires = "beta")]
+    alpha: Option<f64>,
+    /// Impact parameter along the projected spin axis, M
+    #[arg(long, value_name = "M", value_parser = parse_finite, allow_negative_numbers = true, requires = "alpha")]
+    beta: Option<f64>,
+    /// Override a key of the scene; may be given several times
+    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
+    set: Vec<String>,
+    /// What traces the ray (as --set render.engine=…)
+    #[arg(long, value_name = "ENGINE")]
+    engine: Option<String>,
+    /// Crossings to list at most
+    #[arg(long, value_name = "N", default_value_t = 16)]
+    crossings: usize,
+    /// Add N points (t, x, y, z) along the ray, in its Kerr-Schild coordinates
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
+    path: Option<u32>,
+    /// How to print; csv and svg print the points of --path (default 1000)
+    #[arg(long, value_enum, default_value_t)]
+    format: TraceFormat,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum TraceFormat {
+    /// For reading
+    #[default]
+    Text,
+    /// For programs
+    Json,
+    /// The points of the path, one a line
+    Csv,
+    /// A side view of the path
+    Svg,
+}
+
+#[derive(Serialize)]
+struct Output {
+    engine: &'static str,
+    fate: &'static str,
+    conserved: Conserved,
+    crossings: Vec<Crossing>,
+    direction: Option<Direction>,
+    steps: usize,
+    error_estimate: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    path: Option<Vec<[f64; 4]>>,
+}
+
+#[derive(Serialize)]
+struct Conserved {
+    lambda: Option<f64>,
+    eta: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Crossing {
+    order: usize,
+    r: f64,
+    phi: Option<f64>,
+    t: Option<f64>,
+    g: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct Direction {
+    theta: f64,
+    phi: f64,
+}
+
+/// A ray, the hole it passes (none in flat space) and what follows it.
+struct Shot {
+    spin: Option<f64>,
+    ray: Ray,
+    tracer: Box<dyn Tracer>,
+}
+
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let shot = shot(arguments)?;
+    let drawn = matches!(arguments.format, TraceFormat::Csv | TraceFormat::Svg);
+    let points = arguments.path.map_or(if drawn { 1000 } else { 0 }, |n| n as usize);
+    let query = Query { max_crossings: arguments.crossings, elapsed: true, points, ..Query::default() };
+    let mut path = Path::default();
+    shot.tracer.trace(&shot.ray, &query, &mut path);
+    match arguments.format {
+        TraceFormat::Json => print_json(&output(&shot, &path, arguments.path.is_some())),
+        TraceFormat::Text => print(&text(&output(&shot, &path, arguments.path.is_some()))),
+        TraceFormat::Csv => print(&csv(&path)),
+        TraceFormat::Svg => {
+            print(&side_view::draw(&path, shot.spin.map_or(0.0, |a| horizons(a).0), &title(&shot, &path)))
+        }
+    }
+}
+
+fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
+    if let (Some(spin), Some(inclination)) = (arguments.spin, arguments.inclination) {
+        return hole(arguments, spin, inclination);
+    }
+    let mut overrides = arguments.set.clone();
+    overrides.extend(arguments.engine.iter().map(|engine| format!("render.engine={engine}")));
+    let scene = Scene::load(arguments.scene.as_deref(), &overrides)?;
+    let spin = scene.spacetime.spin();
+    let ray = if let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) {
+        let place = scene.observer.place;
+        impact_ray(spin, place.theta, place.r, [alpha, beta]).map(|ray| ray.turned(place.phi))
+    } else {
+        let camera = Camera::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
+        let [x, y] = pixel(arguments, &scene)?;
+        camera.ray(x, y)
+    };
+    let ray = ray.map_err(|e| Failure::Input(e.to_string()))?;
+    Ok(Shot { spin, ray, tracer: tracer(&scene) })
+}
+
+/// A hole without a scene.
+fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Failure> {
+    let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
+        return Err(Failure::Input("--spin needs a ray: give --alpha and --beta in M".to_owned()));
+    };
+    if !arguments.set.is_empty() {
+        return Err(Failure::Input("--set changes a scene: leave out --spin and --inclination, or --set".to_owned()));
+    }
+    if let Some(engine) = arguments.engine.as_deref().filter(|e| !matches!(*e, "auto" | "integrator")) {
+        return Err(Failure::Input(format!("no engine is called {engine:?}: give auto or integrator")));
+    }
+    let distance = arguments.distance.unwrap_or(1000.0);
+    let ray = impact_ray(Some(spin), inclination.to_radians(), distance, [alpha, beta])
+        .map_err(|e| Failure::Input(e.to_string()))?;
+    let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, 100_000);
+    Ok(Shot { spin: Some(spin), ray, tracer: Box::new(tracer) })
+}
+
+/// The point of the picture that is asked for, in pixels.
+fn pixel(arguments: &Arguments, scene: &Scene) -> Result<[f64; 2], Failure> {
+    let [x, y] = arguments.pixel[..] else {
+        return Err(Failure::Input(
+            "which ray? give --pixel X,Y, or --alpha and --beta (with --spin and --inclination, or a scene)".to_owned(),
+        ));
+    };
+    let (width, height) = (scene.render.width, scene.render.height);
+    if x >= width || y >= height {
+        return Err(Failure::Input(format!(
+            "pixel {x},{y} is outside the picture: x is 0 to {}, y 0 to {}",
+            width - 1,
+            height - 1
+        )));
+    }
+    let place = match arguments.sample {
+        None => [0.5; 2],
+        Some(k) if k < scene.render.samples => {
+            let sampler = Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter);
+            sampler.place(u64::from(y) * u64::from(width) + u64::from(x), k)
+        }
+        Some(k) => {
+            return Err(Failure::Input(format!(
+                "sample {k} does not exist: this scene has 0 to {}",
+                scene.render.samples - 1
+            )));
+        }
+    };
+    Ok([f64::from(x) + place[0], f64::from(y) + place[1]])
+}
+
+fn finite(x: f64) -> Option<f64> {
+    x.is_finite().then_some(x)
+}
+
+fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
+    let conserved = shot.ray.conserved(shot.spin.unwrap_or(0.0));
+    let energy = match shot.ray.side {
+        Side::Reversed => shot.ray.energy,
+        Side::Ingoing => -shot.ray.energy,
+    };
+    let crossings = path.crossings.iter().enumerate().map(|(order, c)| Crossing {
+        order,
+        r: c.r,
+        phi: finite(c.phi),
+        t: finite(c.elapsed),
+        g: shot.spin.and_then(|a| redshift_factor(a, c.r, conserved.lambda, energy)),
+    });
+    Output {
+        engine: if shot.spin.is_some() { "integrator" } else { "straight" },
+        fate: fate(path.fate),
+        conserved: Conserved { lambda: finite(conserved.lambda), eta: finite(conserved.eta) },
+        crossings: crossings.collect(),
+        direction: path.direction.map(|[theta, phi]| Direction { theta, phi }),
+        steps: path.steps,
+        error_estimate: finite(path.error_estimate),
+        path: with_points.then(|| path.points.clone()),
+    }
+}
+
+fn fate(fate: Fate) -> &'static str {
+    match fate {
+        Fate::Escaped => "escaped",
+        Fate::Captured => "captured",
+        Fate::StepLimit => "step-limit",
+    }
+}
+
+fn text(output: &Output) -> String {
+    let show = |x: Option<f64>| x.map_or_else(|| "-".to_owned(), |x| format!("{x:.9}"));
+    let mut s = String::new();
+    let _ = writeln!(
+        s,
+        "{}; lambda {}, eta {}; {} steps ({}), error about {}",
+        output.fate,
+        show(output.conserved.lambda),
+        show(output.conserved.eta),
+        output.steps,
+        output.engine,
+        output.error_estimate.map_or_else(|| "-".to_owned(), |e| format!("{e:.1e}")),
+    );
+    if let Some(Direction { theta, phi }) = output.direction {
+        let _ = writeln!(s, "light comes from theta {theta:.9}, phi {phi:.9} rad");
+    }
+    if output.crossings.is_empty() {
+        let _ = write!(s, "no crossing of the equatorial plane");
+    } else {
+        let _ = write!(s, "crossing {:>16} {:>16} {:>18} {:>14}", "r (M)", "phi (rad)", "time before (M)", "g");
+        for c in &output.crossings {
+            let _ = write!(s, "\n{:>8} {:>16.9} {:>16} {:>18} {:>14}", c.order, c.r, show(c.phi), show(c.t), show(c.g));
+        }
+    }
+    for [t, x, y, z] in output.path.iter().flatten() {
+        let _ = write!(s, "\n{t:>16.9} {x:>16.9} {y:>16.9} {z:>16.9}");
+    }
+    s
+}
+
+fn csv(path: &Path) -> String {
+    let lines = path.points.iter().map(|[t, x, y, z]| format!("{t},{x},{y},{z}"));
+    std::iter::once("t,x,y,z".to_owned()).chain(lines).collect::<Vec<_>>().join("\n")
+}
+
+fn title(shot: &Shot, path: &Path) -> String {
+    let conserved = shot.ray.conserved(shot.spin.unwrap_or(0.0));
+    let hole = shot.spin.map_or_else(|| "flat space".to_owned(), |a| format!("a = {a}"));
+    format!("{hole}, λ = {:.4} M, η = {:.4} M²: {}", conserved.lambda, conserved.eta, fate(path.fate))
+}

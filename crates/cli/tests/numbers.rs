@@ -1,0 +1,127 @@
+//! The commands that print numbers, from outside.
+
+mod common;
+
+use common::{json, run};
+use std::path::Path;
+
+fn here(arguments: &[&str]) -> serde_json::Value {
+    json(Path::new("."), arguments)
+}
+
+fn near(value: &serde_json::Value, expected: f64, tolerance: f64) {
+    let x = value.as_f64().unwrap_or(f64::NAN);
+    assert!((x - expected).abs() <= tolerance, "{x} is not {expected}");
+}
+
+#[test]
+fn orbits() {
+    let value = here(&["orbits", "--spin", "-0.9", "--format", "json"]);
+    near(&value["isco"], 8.71735227961, 1e-10);
+    near(&value["isco_retrograde"], 2.32088304176, 1e-10);
+    near(&value["photon_prograde"], 3.9102679391, 1e-10);
+    near(&value["impact_retrograde"], 2.84442140348, 1e-10);
+}
+
+#[test]
+fn shadow() {
+    let value = here(&["shadow", "--spin", "0.9", "--inclination", "17", "--points", "12", "--format", "json"]);
+    near(&value["alpha_min"], -4.303168, 1e-6);
+    near(&value["beta_max"], 4.94500, 5e-6);
+    near(&value["area"], 76.1857, 5e-5);
+    assert_eq!(value["curve"].as_array().unwrap().len(), 12);
+}
+
+#[test]
+fn a_ray_of_impact_parameters() {
+    let arguments = ["trace", "--spin", "0.42", "--inclination", "60", "--alpha", "-17", "--beta", "0", "--format", "json"];
+    let value = here(&arguments);
+    assert_eq!((&value["engine"], &value["fate"]), (&"integrator".into(), &"escaped".into()));
+    near(&value["conserved"]["lambda"], 17.0 * 60f64.to_radians().sin(), 1e-12);
+    near(&value["conserved"]["eta"], (289.0 - 0.42 * 0.42) * 0.25, 1e-10);
+    let crossing = &value["crossings"][0];
+    let (r, phi) = (crossing["r"].as_f64().unwrap(), crossing["phi"].as_f64().unwrap());
+    assert!((r * phi.cos() + 0.0522336).abs() < 1e-6 && (r * phi.sin() + 16.0342).abs() < 1e-4);
+    // The light left before it arrived, by about the distance.
+    let t = crossing["t"].as_f64().unwrap();
+    assert!((900.0..1100.0).contains(&t), "{t}");
+    assert!(crossing["g"].as_f64().unwrap() > 1.0, "the left side approaches");
+    assert!(value["direction"]["theta"].is_number());
+}
+
+#[test]
+fn a_ray_that_does_not_come_back() {
+    let arguments = ["trace", "--spin", "0.9", "--inclination", "90", "--distance", "inf", "--alpha", "1", "--beta", "0", "--format", "json"];
+    let value = here(&arguments);
+    assert_eq!(value["fate"], "captured");
+    assert!(value["direction"].is_null());
+    assert_eq!(value["crossings"], serde_json::json!([]), "rays in the plane do not cross it");
+}
+
+#[test]
+fn a_path_in_four_formats() {
+    let ray = ["trace", "--spin", "0.9", "--inclination", "85", "--distance", "20", "--alpha", "4", "--beta", "3", "--path", "50"];
+    let print = |format: &str| {
+        let output = run(Path::new("."), &[&ray[..], &["--format", format]].concat());
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let value: serde_json::Value = serde_json::from_str(&print("json")).unwrap();
+    let points = value["path"].as_array().unwrap();
+    assert_eq!(points.len(), 50);
+    near(&points[0][0], 0.0, 1e-12);
+    assert!(points[49][0].as_f64().unwrap() < -20.0, "time runs backwards");
+    let csv = print("csv");
+    assert_eq!((csv.lines().count(), csv.lines().next()), (51, Some("t,x,y,z")));
+    let svg = print("svg");
+    assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains("<polyline"));
+    assert!(print("text").contains("crossing"));
+}
+
+#[test]
+fn a_pixel_of_a_scene() {
+    let value = here(&["trace", "--pixel", "480,270", "--format", "json"]);
+    assert!(value["steps"].as_u64().unwrap() > 3);
+    let centre = here(&["trace", "--pixel", "10,20", "--sample", "3", "--format", "json"]);
+    assert_eq!(centre["fate"], "escaped");
+    let flat = here(&["trace", "--pixel", "3,3", "--set", "spacetime.name=minkowski", "--set", "disk.model=none", "--format", "json"]);
+    assert_eq!(flat["engine"], "straight");
+}
+
+#[test]
+fn wrong_questions_exit_with_2() {
+    let wrong: [&[&str]; 9] = [
+        &["orbits", "--spin", "1.2"],
+        &["orbits"],
+        &["shadow", "--spin", "0.5", "--inclination", "200"],
+        &["trace"],
+        &["trace", "--spin", "0.5", "--inclination", "60"],
+        &["trace", "--alpha", "1"],
+        &["trace", "--pixel", "5000,1"],
+        &["trace", "--spin", "0.9", "--inclination", "90", "--distance", "1.5", "--alpha", "1", "--beta", "1"],
+        &["trace", "--spin", "0.9", "--inclination", "60", "--alpha", "nan", "--beta", "1"],
+    ];
+    for arguments in wrong {
+        let output = run(Path::new("."), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!output.stderr.is_empty(), "{arguments:?}");
+    }
+}
+
+#[test]
+fn bench_tells_speed_and_error_together() {
+    let rows = here(&["bench", "--thin", "40", "--format", "json"]);
+    let row = rows.as_array().unwrap().iter().find(|row| row["tolerance"] == 1e-8).unwrap();
+    assert_eq!(row["rays"], 400);
+    assert!(row["rays_per_cpu_s"].as_f64().unwrap() > 0.0);
+    let error = row["sky_error_median"].as_f64().unwrap();
+    assert!(error > 0.0 && error < 1e-8, "{error:e}");
+}
+
+#[test]
+fn validate_agrees_with_every_source() {
+    let rows = here(&["validate", "--format", "json"]);
+    let rows = rows.as_array().unwrap();
+    assert!(rows.len() >= 190, "{}", rows.len());
+    assert!(rows.iter().all(|row| row["passed"] == true));
+}

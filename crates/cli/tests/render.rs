@@ -1,0 +1,108 @@
+//! `kerrscope render`, from outside.
+
+mod common;
+
+use common::{json, program, run};
+use kerrscope::output::png::read_provenance;
+use std::fs;
+use std::path::Path;
+
+const SMALL: [&str; 6] =
+    ["--set", "render.width=48", "--set", "render.height=27", "--set", "render.samples=2"];
+
+fn small<'a>(arguments: &[&'a str]) -> Vec<&'a str> {
+    [&["render"], arguments, &SMALL[..]].concat()
+}
+
+#[test]
+fn without_arguments_it_saves_the_built_in_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(folder.path(), &small(&[]));
+    assert!(output.status.success());
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("Saved kerrscope.png: 48 × 27 pixels"));
+    let decoder = fs::read(folder.path().join("kerrscope.png")).unwrap();
+    assert_eq!(&decoder[..8], b"\x89PNG\r\n\x1a\n");
+}
+
+#[test]
+fn one_and_two_threads_give_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    for threads in ["1", "2", "5"] {
+        let name = format!("{threads}.png");
+        assert!(run(folder.path(), &small(&["-o", &name, "--threads", threads])).status.success());
+    }
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("1.png") == bytes("2.png") && bytes("1.png") == bytes("5.png"));
+}
+
+#[test]
+fn a_picture_remakes_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = small(&["-o", "a.png", "--set", "spacetime.spin=-0.3", "--set", "render.seed=9"]);
+    assert!(run(folder.path(), &arguments).status.success());
+    let made = read_provenance(&folder.path().join("a.png")).unwrap();
+    assert_eq!(made.seed, 9);
+    fs::write(folder.path().join("again.toml"), made.to_string()).unwrap();
+    assert!(run(folder.path(), &["render", "again.toml"]).status.success());
+    let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("a.png") == bytes("again.png"), "the scene in the picture makes the same picture");
+}
+
+#[test]
+fn json_names_what_was_done() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments =
+        small(&["-o", "a.png", "-o", "b.png", "--format", "json", "--set", "camera.display.bits=16"]);
+    let value = json(folder.path(), &arguments);
+    assert_eq!(value["outputs"], serde_json::json!(["a.png", "b.png"]));
+    assert_eq!(value["rays"], 48 * 27 * 2);
+    assert!(value["total_flux_jy"].is_null());
+    assert!(value["wall_s"].as_f64().unwrap() > 0.0);
+    let estimate = value["error_estimate"].as_f64().unwrap();
+    assert!((1e-13..1e-7).contains(&estimate), "{estimate:e}");
+    assert!(value["centroid"][0].is_number() && value["size"][1].is_number());
+}
+
+#[test]
+fn wrong_input_exits_with_2_and_writes_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("bad.toml"), "[spacetime]\nspin = 1.5\nspeen = 1\n[render]\nwidth = \"wide\"\n")
+        .unwrap();
+    let output = run(folder.path(), &["render", "bad.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&output.stderr);
+    for expected in ["bad.toml:2", "speen", "width", "3 faults"] {
+        assert!(text.contains(expected), "{expected:?} is missing in:\n{text}");
+    }
+    assert!(!folder.path().join("bad.png").exists());
+    for arguments in [&["render", "-o", "a.gif"][..], &["render", "--set", "spin=1"], &["render", "none.toml"], &["rendre"]] {
+        let output = run(folder.path(), arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(!output.stderr.is_empty());
+    }
+}
+
+#[test]
+fn an_unwritable_file_exits_with_1() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = run(folder.path(), &small(&["-o", "missing/a.png"]));
+    assert_eq!(output.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("missing"));
+}
+
+#[cfg(unix)]
+#[test]
+fn interrupted_it_exits_with_130_and_keeps_the_old_file() {
+    use std::process::{Command, Stdio};
+    let folder = tempfile::tempdir().unwrap();
+    let path: &Path = folder.path();
+    fs::write(path.join("a.png"), "old").unwrap();
+    // Minutes of work, interrupted at once.
+    let arguments = ["render", "-o", "a.png", "--set", "render.width=4000", "--set", "render.height=4000"];
+    let mut child = program(path, &arguments).stderr(Stdio::piped()).stdout(Stdio::null()).spawn().unwrap();
+    std::thread::sleep(std::time::Duration::from_millis(700));
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert_eq!(fs::read(path.join("a.png")).unwrap(), b"old");
+    assert_eq!(fs::read_dir(path).unwrap().count(), 1, "no litter");
+}

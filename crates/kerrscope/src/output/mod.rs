@@ -1,0 +1,12 @@
+//! Files that leave the program. One file of code a format.
+//!
+//! A file appears whole or not at all (see [`mod@file`]), and says how it was made
+//! (see [`Provenance`]).
+
+mod error;
+pub mod file;
+pub mod png;
+mod provenance;
+
+pub use error::FileError;
+pub use provenance::{Provenance, ProvenanceFault};

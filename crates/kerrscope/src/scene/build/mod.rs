@@ -1,0 +1,236 @@
+//! From a scene as typed to a valid one: what depends on several keys, or on files.
+
+mod coordinates;
+mod disk;
+mod observer;
+mod screen;
+
+use std::path::{Path, PathBuf};
+
+use super::fault::{Collector, one_line};
+use super::file::{self, SceneFile, SpacetimeName};
+use super::tree::Node;
+use super::valid::{Display, Method, Render, Sky, SkyPicture, Spacetime};
+use super::{Scene, shape};
+
+/// The largest number of rays in a picture: width × height × samples.
+const MAX_RAYS: u64 = 1 << 36;
+
+/// Builds a scene. What cannot be is reported, and something possible put in its place, so that
+/// all of it is found; the scene is good only if nothing was reported.
+///
+/// `removed` are the keys whose values were already found wrong: nothing is said of what
+/// depends on them.
+pub(super) fn build(
+    typed: &SceneFile,
+    root: &Node,
+    removed: &[String],
+    folder: &Path,
+    faults: &mut Collector,
+) -> Scene {
+    let file = typed.complete();
+    let mut builder = Builder {
+        root,
+        removed,
+        folder,
+        faults,
+    };
+    let spacetime = builder.spacetime(&file.spacetime);
+    let observer = builder.observer(&file, spacetime);
+    Scene {
+        spacetime,
+        observer,
+        screen: builder.screen(&file.screen, spacetime, observer.place),
+        disk: builder.disk(&file.disk, spacetime),
+        sky: builder.sky(&file.sky),
+        render: builder.render(&file.render),
+        display: Display {
+            exposure: file.camera.display.exposure,
+            tone: file.camera.display.tone,
+            bits: file.camera.display.bits,
+        },
+        file,
+    }
+}
+
+struct Builder<'a> {
+    root: &'a Node,
+    removed: &'a [String],
+    folder: &'a Path,
+    faults: &'a mut Collector,
+}
+
+/// The keys that fix the spacetime.
+const SPACETIME: [&str; 2] = ["spacetime.spin", "spacetime.name"];
+
+impl Builder<'_> {
+    /// Reports what is wrong with several keys together, at the first of them that was typed.
+    fn fault(&mut self, keys: &[&str], what: impl Into<String>, mend: impl Into<String>) {
+        let within = |inner: &str, outer: &str| {
+            inner
+                .strip_prefix(outer)
+                .is_some_and(|rest| outer.is_empty() || rest.is_empty() || rest.starts_with('.'))
+        };
+        let doubtful = |key: &str| {
+            self.removed
+                .iter()
+                .any(|removed| within(key, removed) || within(removed, key))
+        };
+        if keys.iter().any(|key| doubtful(key)) {
+            return;
+        }
+        let node = keys
+            .iter()
+            .find_map(|key| self.root.at(key))
+            .unwrap_or(self.root);
+        let place = node.place.clone();
+        self.faults.push(&place, || (what.into(), mend.into()));
+    }
+
+    fn spacetime(&mut self, file: &file::Spacetime) -> Spacetime {
+        let spin = file.spin.unwrap_or_default();
+        let (hole, spacetime) = match file.name {
+            SpacetimeName::Kerr => return Spacetime::Kerr { spin },
+            SpacetimeName::Schwarzschild => (
+                "a Schwarzschild black hole does not turn",
+                Spacetime::Schwarzschild,
+            ),
+            SpacetimeName::Minkowski => ("flat space does not turn", Spacetime::Minkowski),
+        };
+        if spin != 0.0 {
+            self.fault(
+                &SPACETIME,
+                format!("{hole}: its spin cannot be {spin}"),
+                "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
+            );
+        }
+        spacetime
+    }
+
+    fn sky(&mut self, file: &file::Sky) -> Sky {
+        let color = file.color;
+        let picture = match file.kind {
+            file::SkyKind::Black => SkyPicture::Black,
+            file::SkyKind::Uniform => SkyPicture::Uniform { color },
+            file::SkyKind::Grid => {
+                let lines = 90.0 / file.spacing;
+                if (lines - lines.round()).abs() > 1e-9 * lines {
+                    // 90 divided by these is written with few digits, as 90/13 is not.
+                    let short = |lines: &u32| 9_000_000 % lines == 0;
+                    let below = (lines.ceil() as u32..=900).find(short).unwrap_or(900);
+                    let above = (1..=lines.floor() as u32).rev().find(short).unwrap_or(1);
+                    let [below, above] = [below, above].map(|lines| 90.0 / f64::from(lines));
+                    self.fault(
+                        &["sky.spacing", "sky.kind"],
+                        format!(
+                            "lines {}° apart do not divide 90° into equal parts",
+                            file.spacing
+                        ),
+                        format!("give a divisor of 90 such as {below} or {above}"),
+                    );
+                }
+                SkyPicture::Grid {
+                    color,
+                    spacing: file.spacing.to_radians(),
+                }
+            }
+            file::SkyKind::Panorama => SkyPicture::Panorama {
+                path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
+                longitude: file.longitude.to_radians(),
+            },
+        };
+        // The word for no sky leaves the picture unused on purpose; others may be a slip.
+        if file.image.is_some() && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid)
+        {
+            self.unused("sky.image", "sky.kind", "panorama");
+        }
+        Sky {
+            picture,
+            brightness: file.brightness,
+        }
+    }
+
+    fn render(&mut self, file: &file::Render) -> Render {
+        let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
+        if rays > MAX_RAYS {
+            let pixels = u64::from(file.width) * u64::from(file.height);
+            let (width, height) = (file.width, file.height);
+            self.fault(
+                &["render.samples", "render.width", "render.height"],
+                format!(
+                    "{width} × {height} pixels of {} samples are {rays} rays, \
+                     and {MAX_RAYS} are the most",
+                    file.samples
+                ),
+                format!("at this size `render.samples` can be {}", MAX_RAYS / pixels),
+            );
+        }
+        if file.step.is_some() && file.method != Method::Rk4 {
+            self.fault(
+                &["render.step", "render.method"],
+                "`render.step` is for `method = \"rk4\"` only; the others choose their steps",
+                "remove it and use `render.tolerance`, or choose `render.method = \"rk4\"`",
+            );
+        }
+        Render {
+            width: file.width,
+            height: file.height,
+            samples: file.samples,
+            seed: file.seed,
+            jitter: file.jitter,
+            engine: file.engine,
+            method: file.method,
+            tolerance: file.tolerance,
+            step: file.step.unwrap_or(file::RK4_STEP),
+            max_steps: file.max_steps,
+            max_crossings: file.max_crossings,
+        }
+    }
+
+    /// A key that the chosen kind takes no notice of.
+    fn unused(&mut self, key: &str, chooser: &str, wanted: &str) {
+        self.fault(
+            &[key, chooser],
+            format!("`{key}` is used with `{chooser} = \"{wanted}\"` only"),
+            format!("set `{chooser} = \"{wanted}\"`, or remove `{key}`"),
+        );
+    }
+
+    /// The path of a picture that the chosen kind needs.
+    fn picture(&mut self, key: &str, chooser: &str, kind: &str, image: Option<&str>) -> PathBuf {
+        let Some(image) = image else {
+            self.fault(
+                &[chooser, key],
+                format!("`{chooser} = \"{kind}\"` needs a picture, and `{key}` is not given"),
+                format!("give `{key}` the path of a PNG or JPEG file"),
+            );
+            return PathBuf::new();
+        };
+        let path = self.folder.join(image);
+        let what = match std::fs::metadata(&path) {
+            Ok(about) if about.is_file() => return path,
+            Ok(about) if about.is_dir() => "is a folder, not a picture".to_owned(),
+            Ok(_) => "is not a regular file".to_owned(),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                "does not exist".to_owned()
+            }
+            Err(error) => format!("cannot be read: {error}"),
+        };
+        let folder = match self.folder.to_string_lossy() {
+            folder if folder.is_empty() => "the current folder".to_owned(),
+            folder => folder.into_owned(),
+        };
+        let shown = one_line(&path.display().to_string(), 300);
+        self.fault(
+            &[key],
+            format!("the picture {shown} {what}"),
+            format!("`{key}` is a file's path from the folder of the scene, {folder}"),
+        );
+        path
+    }
+}
+
+/// A bound in a message with six decimals, rounded up so that what is above it is allowed.
+fn readable(bound: f64) -> String {
+    shape::readable((bound * 1e6).ceil() / 1e6)
+}

@@ -1,0 +1,82 @@
+//! A scene as it is typed: every key, its default, its range and what it means, defined once.
+//!
+//! The types are read by serde, checked against the schema that schemars makes of them, and
+//! written back as the record of what a picture shows. Ranges are in the schema attributes; what
+//! depends on several keys at once is checked when a [`Scene`](super::Scene) is built.
+
+mod disk;
+mod observer;
+mod render;
+mod screen;
+mod sky;
+mod spacetime;
+
+pub use disk::{Disk, DiskModel, Inner, Isco};
+pub use observer::{Motion, MotionName, Observer, RelativeTo, Velocity};
+pub(super) use render::RK4_STEP;
+pub use render::{Camera, Display, Render};
+pub use screen::{Screen, ScreenKind};
+pub use sky::{Sky, SkyKind};
+pub use spacetime::{Spacetime, SpacetimeName};
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde::{Deserialize, Serialize};
+
+/// A scene. Lengths are in M, angles in degrees, colours in sRGB from 0 to 1.
+///
+/// A key that is not given has its default; nothing at all is the built-in scene.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SceneFile {
+    /// The spacetime that light moves in.
+    pub spacetime: Spacetime,
+    /// Who looks, from where, and how they move.
+    pub observer: Observer,
+    /// What the observer's screen shows.
+    pub screen: Screen,
+    /// What shines around the hole.
+    pub disk: Disk,
+    /// What is seen where light comes from infinity.
+    pub sky: Sky,
+    /// How finely and how exactly the picture is computed.
+    pub render: Render,
+    /// How light becomes a picture.
+    pub camera: Camera,
+}
+
+impl SceneFile {
+    /// Every key that has a meaning in this scene, with its default where none was given.
+    ///
+    /// Completing twice is completing once.
+    pub fn complete(&self) -> Self {
+        Self {
+            spacetime: self.spacetime.complete(),
+            observer: self.observer.complete(),
+            screen: self.screen.complete(),
+            disk: self.disk.complete(),
+            render: self.render.complete(),
+            ..self.clone()
+        }
+    }
+
+    /// The scene as TOML text.
+    ///
+    /// # Panics
+    ///
+    /// Never: all that the types can hold, TOML can say.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("a scene is tables, numbers and text")
+    }
+
+    /// The JSON schema (2020-12) of a scene: every key with its type, range, default and meaning.
+    ///
+    /// `x-infinity` marks the numbers that may be `inf`, which JSON cannot say.
+    pub fn schema() -> serde_json::Value {
+        let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
+        settings
+            .into_generator()
+            .into_root_schema_for::<Self>()
+            .to_value()
+    }
+}

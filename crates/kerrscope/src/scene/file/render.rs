@@ -1,0 +1,106 @@
+//! `[render]` and `[camera.display]`
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::scene::{Engine, Method, Tone};
+
+/// The step of "rk4" if none is given.
+pub(in crate::scene) const RK4_STEP: f64 = 0.1;
+
+/// How finely and how exactly the picture is computed.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Render {
+    /// Width of the picture in pixels.
+    #[schemars(range(min = 1, max = 16384))]
+    pub width: u32,
+    /// Height of the picture in pixels.
+    #[schemars(range(min = 1, max = 16384))]
+    pub height: u32,
+    /// Rays in each pixel. width × height × samples is at most 2³⁶.
+    #[schemars(range(min = 1, max = 65536))]
+    pub samples: u32,
+    /// Chooses where in the pixels the rays lie.
+    #[schemars(range(min = 0, max = 9223372036854775807_i64))]
+    pub seed: u64,
+    /// Whether rays are spread over the pixel by chance; if not, they lie on a regular grid.
+    pub jitter: bool,
+    /// What traces the rays.
+    pub engine: Engine,
+    /// Which method integrates the rays.
+    pub method: Method,
+    /// Error that "dop853" and "tsit5" allow in a step, relative to the ray's own lengths.
+    #[schemars(range(min = 1e-14, max = 1e-2))]
+    pub tolerance: f64,
+    /// Length of a step in M; for "rk4", 0.1 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(max = 1e3), extend("exclusiveMinimum" = 0))]
+    pub step: Option<f64>,
+    /// Steps after which a ray is given up.
+    #[schemars(range(min = 1, max = 1_000_000))]
+    pub max_steps: u32,
+    /// Crossings of the disk's plane after which a ray is followed no farther.
+    #[schemars(range(min = 1, max = 64))]
+    pub max_crossings: u32,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self {
+            width: 960,
+            height: 540,
+            samples: 4,
+            seed: 1,
+            jitter: true,
+            engine: Engine::default(),
+            method: Method::default(),
+            tolerance: 1e-8,
+            step: None,
+            max_steps: 10_000,
+            max_crossings: 8,
+        }
+    }
+}
+
+impl Render {
+    pub(super) fn complete(&self) -> Self {
+        let default = (self.method == Method::Rk4).then_some(RK4_STEP);
+        Self {
+            step: self.step.or(default),
+            ..self.clone()
+        }
+    }
+}
+
+/// How light becomes a picture.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Camera {
+    /// How linear light is shown on a screen.
+    pub display: Display,
+}
+
+/// How linear light is shown on a screen.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Display {
+    /// Stops by which the picture is brightened; each doubles the light.
+    #[schemars(range(min = -30, max = 30))]
+    pub exposure: f64,
+    /// How light brighter than the screen is brought down to it.
+    pub tone: Tone,
+    /// Bits of a colour channel in the picture file, 8 or 16.
+    #[schemars(extend("enum" = [8, 16]))]
+    pub bits: u8,
+}
+
+impl Default for Display {
+    fn default() -> Self {
+        Self {
+            exposure: 0.0,
+            tone: Tone::default(),
+            bits: 8,
+        }
+    }
+}

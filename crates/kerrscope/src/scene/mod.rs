@@ -1,0 +1,156 @@
+//! A scene: from TOML text to what can be drawn.
+//!
+//! What was typed and what is valid are two types. A [`SceneFile`] holds the keys as they stand in
+//! the text; a [`Scene`] is made from it by checks that find everything that is wrong at once, and
+//! a scene that exists is valid.
+//!
+//! Text is read in five steps, each of which reports [`Fault`]s and goes on as far as it can:
+//!
+//! 1. `scan` cuts the text into statements and sets aside those that would harm the parser;
+//! 2. `tree` parses the others into a tree that knows where everything was typed;
+//! 3. `overrides` puts `--set PATH=VALUE` into the tree;
+//! 4. `check` compares the tree with the schema of [`SceneFile`] and takes out what does not fit;
+//! 5. `build` makes the scene, and checks what depends on several keys or on files. It says
+//!    nothing of what depends on keys that were taken out.
+//!
+//! ```
+//! use std::path::Path;
+//! use kerrscope::scene::Scene;
+//!
+//! let scene = Scene::from_toml("spacetime.spin = 0.5\nrender.width = 400", Path::new(""))?;
+//! assert_eq!(scene.spacetime.spin(), Some(0.5));
+//! assert_eq!(scene.render.height, 540);
+//!
+//! let faults = Scene::from_toml("[spacetime]\nspin = 1.5", Path::new("")).unwrap_err();
+//! assert_eq!(
+//!     faults.to_string(),
+//!     "scene:2:8: 1.5 is too large for `spacetime.spin`\n  \
+//!      help: give a number from -1 to 1; the default is 0.99",
+//! );
+//! # Ok::<(), kerrscope::scene::Faults>(())
+//! ```
+
+mod build;
+mod check;
+mod fault;
+pub mod file;
+mod overrides;
+mod read;
+mod scan;
+mod shape;
+mod tree;
+mod valid;
+
+use std::path::Path;
+
+pub use fault::{Fault, Faults, Source};
+pub use file::SceneFile;
+pub use valid::{
+    Disk, Display, Engine, Mapping, Method, Observer, Render, Screen, ScreenKind, Sky, SkyPicture,
+    Spacetime, Surface, Tone,
+};
+
+/// What to call a text that came from no file.
+const UNNAMED: &str = "scene";
+
+/// A scene that can be drawn. Angles are in radians, lengths in M.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// The spacetime that light moves in.
+    pub spacetime: Spacetime,
+    /// Who looks.
+    pub observer: Observer,
+    /// What their screen shows.
+    pub screen: Screen,
+    /// The disk, if there is one.
+    pub disk: Option<Disk>,
+    /// What is seen where light comes from infinity.
+    pub sky: Sky,
+    /// How finely and how exactly the picture is computed.
+    pub render: Render,
+    /// How light becomes a picture.
+    pub display: Display,
+    /// What it was built from, complete.
+    file: SceneFile,
+}
+
+impl Scene {
+    /// The scene of an empty file.
+    ///
+    /// # Panics
+    ///
+    /// Never: that scene is valid.
+    pub fn built_in() -> Self {
+        SceneFile::default()
+            .build(Path::new(""))
+            .expect("the built-in scene is valid")
+    }
+
+    /// Reads a scene. Paths in it begin at `folder`.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with it.
+    pub fn from_toml(text: &str, folder: &Path) -> Result<Self, Faults> {
+        read::scene(Ok(Source::new(UNNAMED, text)), &[], folder)
+    }
+
+    /// Reads a scene from a file, or takes the built-in one, and applies overrides of the form
+    /// `PATH=VALUE` in their order.
+    ///
+    /// Values are TOML; what is no TOML value is taken as text: `spacetime.name=minkowski`. Paths
+    /// of pictures begin at the file's folder, or at the current one.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the file and the overrides.
+    pub fn load(path: Option<&Path>, overrides: &[String]) -> Result<Self, Faults> {
+        match path {
+            None => read::scene(
+                Ok(Source::new("built-in scene", "")),
+                overrides,
+                Path::new(""),
+            ),
+            Some(path) => {
+                let folder = path.parent().unwrap_or(Path::new(""));
+                read::scene(read::file(path), overrides, folder)
+            }
+        }
+    }
+
+    /// The scene as it was built, with every default written out: the record of what a picture
+    /// shows. Reading it gives this scene again.
+    ///
+    /// Changes made to the fields since are not in it: change the [`file`](Self::file) and build
+    /// that.
+    pub fn to_toml(&self) -> String {
+        self.file.to_toml()
+    }
+
+    /// The keys that the scene was built from, with every default.
+    pub fn file(&self) -> &SceneFile {
+        &self.file
+    }
+}
+
+impl SceneFile {
+    /// Reads the keys of a scene, each by itself: what they mean together is checked when the
+    /// scene is [built](Self::build).
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with the text.
+    pub fn from_toml(text: &str) -> Result<Self, Faults> {
+        read::keys(Source::new(UNNAMED, text))
+    }
+
+    /// The scene that the keys describe. Paths in it begin at `folder`.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with it; the faults are placed in [its text](Self::to_toml).
+    pub fn build(&self, folder: &Path) -> Result<Scene, Faults> {
+        // Values set by a program are checked as if they had been typed.
+        Scene::from_toml(&self.to_toml(), folder)
+    }
+}

@@ -1,0 +1,231 @@
+//! A scene that can be drawn: numbers and choices, nothing left to interpret.
+
+use std::path::PathBuf;
+
+use kerrscope_spacetime::observer::{Motion, Place};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The spacetime that light moves in; lengths are in its mass M.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spacetime {
+    /// Flat space.
+    Minkowski,
+    /// A black hole that does not turn.
+    Schwarzschild,
+    /// A black hole that turns.
+    Kerr {
+        /// Spin a in [−1, 1], along +z.
+        spin: f64,
+    },
+}
+
+impl Spacetime {
+    /// The spin of the hole; `None` where there is no hole.
+    pub fn spin(self) -> Option<f64> {
+        match self {
+            Self::Minkowski => None,
+            Self::Schwarzschild => Some(0.0),
+            Self::Kerr { spin } => Some(spin),
+        }
+    }
+}
+
+/// Who looks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Observer {
+    /// Where they are.
+    pub place: Place,
+    /// How they move; possible at that place.
+    pub motion: Motion,
+}
+
+/// What the observer's screen shows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screen {
+    /// How a point of the screen chooses a direction.
+    pub kind: ScreenKind,
+    /// Angle in radians by which the camera is turned anticlockwise, so the picture clockwise.
+    pub roll: f64,
+    /// Kerr–Schild Cartesian point at the picture's middle, not the observer's own place; without
+    /// it the camera looks along −`e_r` of Boyer–Lindquist. `None` for [`ScreenKind::Impact`].
+    pub look_at: Option<[f64; 3]>,
+}
+
+/// How a point of the screen chooses a direction. The height is from outer edge to outer edge.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ScreenKind {
+    /// A flat picture.
+    Pinhole {
+        /// Angle in radians, below π.
+        height: f64,
+    },
+    /// Equal angles take equal lengths.
+    Angular {
+        /// Angle in radians, at most π.
+        height: f64,
+    },
+    /// The plane of the impact parameters α and β.
+    Impact {
+        /// Length in M.
+        height: f64,
+    },
+}
+
+/// A thin disk around the hole that turns about +z.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disk {
+    /// Boyer–Lindquist radius of the inner edge, in M: not below the horizon, less than `outer`.
+    pub inner: f64,
+    /// Boyer–Lindquist radius of the outer edge, in M.
+    pub outer: f64,
+    /// Angle in radians between its plane and the equatorial plane.
+    pub tilt: f64,
+    /// Azimuth in radians at which it rises through the equatorial plane.
+    pub node: f64,
+    /// What it looks like.
+    pub surface: Surface,
+    /// Colour of its light, or of the light that a picture's white sends: red, green and blue in
+    /// sRGB, 0 to 1.
+    pub color: [f64; 3],
+    /// Factor on its light.
+    pub brightness: f64,
+    /// Factor on its opacity, 0 to 1; its light goes down with it.
+    pub opacity: f64,
+}
+
+/// What a disk looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Surface {
+    /// A ring of streaks.
+    Ring {
+        /// Chooses the pattern.
+        seed: u64,
+    },
+    /// A picture.
+    Picture {
+        /// The file, as seen from the current folder. It existed when the scene was built.
+        path: PathBuf,
+        /// How it is laid on the disk.
+        mapping: Mapping,
+    },
+}
+
+/// How a picture is laid on a disk.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mapping {
+    /// Its width goes once around, its height from the inner to the outer edge.
+    #[default]
+    Around,
+    /// It lies flat on the disk, its middle at the hole.
+    Flat,
+}
+
+/// What is seen where light comes from infinity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sky {
+    /// What it looks like.
+    pub picture: SkyPicture,
+    /// Factor on its light.
+    pub brightness: f64,
+}
+
+/// What a sky looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SkyPicture {
+    /// Dark.
+    Black,
+    /// The same everywhere.
+    Uniform {
+        /// Red, green and blue in sRGB, 0 to 1.
+        color: [f64; 3],
+    },
+    /// Lines of equal θ and of equal φ.
+    Grid {
+        /// Red, green and blue of the lines in sRGB, 0 to 1.
+        color: [f64; 3],
+        /// Angle in radians between lines; divides a right angle.
+        spacing: f64,
+    },
+    /// A picture of the whole sky.
+    Panorama {
+        /// The file, as seen from the current folder. It existed when the scene was built.
+        path: PathBuf,
+        /// Azimuth in radians at the picture's middle.
+        longitude: f64,
+    },
+}
+
+/// How finely and how exactly a picture is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Render {
+    /// Width in pixels, 1 to 16384.
+    pub width: u32,
+    /// Height in pixels, 1 to 16384.
+    pub height: u32,
+    /// Rays in each pixel, 1 to 65536; width × height × samples is at most 2³⁶.
+    pub samples: u32,
+    /// Chooses where in the pixels the rays lie.
+    pub seed: u64,
+    /// Whether rays are spread by chance.
+    pub jitter: bool,
+    /// What traces the rays.
+    pub engine: Engine,
+    /// Which method integrates them.
+    pub method: Method,
+    /// Relative error that the adaptive methods allow in a step.
+    pub tolerance: f64,
+    /// Step in M of the method with fixed steps.
+    pub step: f64,
+    /// Steps after which a ray is given up.
+    pub max_steps: u32,
+    /// Crossings of the disk's plane after which a ray is followed no farther.
+    pub max_crossings: u32,
+}
+
+/// What traces rays.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Engine {
+    /// The fastest that can draw the scene.
+    #[default]
+    Auto,
+    /// Numerical integration.
+    Integrator,
+}
+
+/// A method of numerical integration.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Dormand and Prince, order 8, adaptive.
+    #[default]
+    Dop853,
+    /// Tsitouras, order 5, adaptive.
+    Tsit5,
+    /// The classical Runge–Kutta method, order 4, with steps of a fixed length.
+    Rk4,
+}
+
+/// How linear light is shown on a screen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Display {
+    /// Stops by which the picture is brightened.
+    pub exposure: f64,
+    /// How light brighter than the screen is brought down to it.
+    pub tone: Tone,
+    /// Bits of a colour channel, 8 or 16.
+    pub bits: u8,
+}
+
+/// A tone curve.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Tone {
+    /// Bright light is compressed, its hue kept; all else is unchanged.
+    #[default]
+    Neutral,
+    /// Light brighter than the screen is cut off.
+    None,
+}

@@ -1,0 +1,50 @@
+//! What lies behind everything: light from infinitely far away.
+//!
+//! A direction on the sky is where light comes from: `theta`, the polar angle from +z,
+//! and `phi`, the azimuth from +x towards +y, both in radians. `phi` may have any value.
+//!
+//! The sky is seen from inside. To a viewer at the centre with +z up, azimuth grows to
+//! the left, so what is to the right in a panorama lies at smaller azimuth; see
+//! [`Panorama`].
+
+mod grid;
+mod panorama;
+
+pub use grid::Grid;
+pub use panorama::Panorama;
+
+use crate::light::Light;
+
+/// The celestial sphere.
+///
+/// ```
+/// use kerrscope::light::Light;
+/// use kerrscope::sky::Sky;
+/// let dusk = Light::new([0.02, 0.03, 0.1]);
+/// assert_eq!(Sky::Uniform(dusk).radiance(1.0, 2.0), dusk);
+/// assert_eq!(Sky::Black.radiance(1.0, 2.0), Light::DARK);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Sky {
+    /// No light from anywhere.
+    #[default]
+    Black,
+    /// The same light from everywhere.
+    Uniform(Light),
+    /// Lines of latitude and longitude.
+    Grid(Grid),
+    /// A picture of the whole sky.
+    Panorama(Panorama),
+}
+
+impl Sky {
+    /// The light that comes from a direction. Finite for any direction.
+    pub fn radiance(&self, theta: f64, phi: f64) -> Light {
+        match self {
+            Self::Black => Light::DARK,
+            Self::Uniform(light) => *light,
+            Self::Grid(grid) => grid.radiance(theta, phi),
+            Self::Panorama(panorama) => panorama.radiance(theta, phi),
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! Pictures that are laid over something: read from a file, sampled in linear light.
+//!
+//! - `u` runs from 0 at the left edge to 1 at the right, `v` from 0 at the top edge to
+//!   1 at the bottom. The centre of pixel (i, j) is at ((i + ½)/width, (j + ½)/height).
+//! - Files are PNG or JPEG, grey or RGB, with or without alpha, 8 or 16 bits. Their
+//!   values are taken as sRGB; gamma chunks and colour profiles are not read. The
+//!   orientation that a camera noted (EXIF) is applied.
+//! - The values are kept as the file has them, 1 to 8 bytes a pixel, and decoded through
+//!   a table when sampled. That loses nothing, and a panorama of 8192×4096 takes 100 MB
+//!   instead of the 400 MB of linear 32-bit numbers; linear 16-bit integers would merge
+//!   the darkest steps of a 16-bit file.
+//! - Colours are multiplied by alpha before they are interpolated: what colour a fully
+//!   transparent pixel happens to have must not bleed into its neighbours.
+
+mod error;
+mod jpeg;
+
+use std::fs::File;
+use std::io::{Cursor, Read};
+use std::path::Path;
+use std::sync::LazyLock;
+
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+
+pub use error::{TextureError, TextureFault};
+
+use crate::display::srgb;
+use crate::light::{Light, Sheet};
+
+/// Bytes that a decoded picture, and a file, may have.
+const MAX_BYTES: u64 = 1 << 30;
+
+/// Pixels that a picture may have along an edge.
+const MAX_EDGE: u32 = 65536;
+
+static LINEAR_8: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(255));
+static LINEAR_16: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(65535));
+
+fn linear_table(top: u32) -> Vec<f32> {
+    (0..=top)
+        .map(|code| srgb::decode(f64::from(code) / f64::from(top)) as f32)
+        .collect()
+}
+
+/// A picture in memory, sampled in linear light.
+///
+/// ```
+/// use kerrscope::texture::Texture;
+/// # let folder = tempfile::tempdir()?;
+/// # let path = folder.path().join("two.png");
+/// // A picture of two pixels, black and white.
+/// image::save_buffer(&path, &[0, 255], 2, 1, image::ColorType::L8)?;
+/// let texture = Texture::load(&path)?;
+/// let middle = texture.sample(0.5, 0.5, false);
+/// assert_eq!(middle.light.rgb, [0.5; 3]); // half the light, not half the code
+/// assert_eq!(middle.opacity, 1.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, PartialEq)]
+pub struct Texture {
+    width: u32,
+    height: u32,
+    /// 1 grey, 2 grey and alpha, 3 RGB, 4 RGB and alpha.
+    channels: usize,
+    texels: Texels,
+}
+
+#[derive(Clone, PartialEq)]
+enum Texels {
+    Eight(Vec<u8>),
+    Sixteen(Vec<u16>),
+}
+
+/// Light multiplied by alpha, and alpha.
+type Texel = [f64; 4];
+
+impl Texture {
+    /// Reads a PNG or JPEG file.
+    ///
+    /// # Errors
+    /// When the file cannot be read, is empty, cut short, damaged or of another format,
+    /// or when the picture would take more than 1 GiB or has an edge above 65536 pixels.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, TextureError> {
+        let path = path.as_ref();
+        read(path)
+            .and_then(|bytes| Self::decode(&bytes))
+            .map_err(|fault| TextureError {
+                path: path.to_path_buf(),
+                fault,
+            })
+    }
+
+    /// Decodes the contents of a PNG or JPEG file.
+    ///
+    /// # Errors
+    /// As [`Texture::load`], without a path.
+    pub fn decode(bytes: &[u8]) -> Result<Self, TextureFault> {
+        if bytes.is_empty() {
+            return Err(TextureFault::Empty);
+        }
+        let format = image::guess_format(bytes).map_err(|_| TextureFault::Foreign(None))?;
+        match format {
+            ImageFormat::Png => {}
+            // The JPEG decoder fills what is missing with grey.
+            ImageFormat::Jpeg if jpeg::is_whole(bytes) => {}
+            ImageFormat::Jpeg => return Err(TextureFault::Truncated),
+            other => {
+                let name = other
+                    .extensions_str()
+                    .first()
+                    .map(|name| name.to_uppercase());
+                return Err(TextureFault::Foreign(name));
+            }
+        }
+        let mut decoder = ImageReader::with_format(Cursor::new(bytes), format)
+            .into_decoder()
+            .map_err(TextureFault::from_image)?;
+        let (width, height) = decoder.dimensions();
+        if width > MAX_EDGE || height > MAX_EDGE || decoder.total_bytes() > MAX_BYTES {
+            return Err(TextureFault::TooLarge { width, height });
+        }
+        let mut limits = Limits::default();
+        // The buffer of the picture itself and the decoder's own.
+        limits.max_alloc = Some(2 * MAX_BYTES);
+        decoder
+            .set_limits(limits)
+            .map_err(TextureFault::from_image)?;
+        let orientation = decoder.orientation().map_err(TextureFault::from_image)?;
+        let mut image = DynamicImage::from_decoder(decoder).map_err(TextureFault::from_image)?;
+        image.apply_orientation(orientation);
+        Ok(Self::from_image(image))
+    }
+
+    fn from_image(image: DynamicImage) -> Self {
+        let (width, height) = (image.width(), image.height());
+        let (channels, texels) = match image {
+            DynamicImage::ImageLuma8(i) => (1, Texels::Eight(i.into_raw())),
+            DynamicImage::ImageLumaA8(i) => (2, Texels::Eight(i.into_raw())),
+            DynamicImage::ImageRgb8(i) => (3, Texels::Eight(i.into_raw())),
+            DynamicImage::ImageRgba8(i) => (4, Texels::Eight(i.into_raw())),
+            DynamicImage::ImageLuma16(i) => (1, Texels::Sixteen(i.into_raw())),
+            DynamicImage::ImageLumaA16(i) => (2, Texels::Sixteen(i.into_raw())),
+            DynamicImage::ImageRgb16(i) => (3, Texels::Sixteen(i.into_raw())),
+            other => (4, Texels::Sixteen(other.into_rgba16().into_raw())),
+        };
+        Self {
+            width,
+            height,
+            channels,
+            texels,
+        }
+    }
+
+    /// Width in pixels.
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Height in pixels.
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Light (scaled by alpha) and alpha at a place, interpolated between the four
+    /// nearest pixels. Beyond the edges the outermost pixels go on; with `wrap_u` the
+    /// left edge continues the right one. Finite for any `u` and `v`.
+    pub fn sample(&self, u: f64, v: f64, wrap_u: bool) -> Sheet {
+        let (upper, lower, f) = clamped(v, self.height);
+        sheet(mix(
+            self.row(upper, u, wrap_u),
+            self.row(lower, u, wrap_u),
+            f,
+        ))
+    }
+
+    /// As [`Texture::sample`] for a picture that covers a sphere, poles at the top and
+    /// bottom edges: what lies beyond a pole is the same row, half a turn on, so that
+    /// there is no seam across the poles either.
+    pub fn sample_sphere(&self, u: f64, v: f64) -> Sheet {
+        let y = finite(v).clamp(0.0, 1.0) * f64::from(self.height) - 0.5;
+        let (upper, f) = (y.floor(), y - y.floor());
+        let last = f64::from(self.height - 1);
+        let row = |y: f64| {
+            let beyond = y < 0.0 || y > last;
+            self.row(
+                y.clamp(0.0, last) as usize,
+                if beyond { u + 0.5 } else { u },
+                true,
+            )
+        };
+        sheet(mix(row(upper), row(upper + 1.0), f))
+    }
+
+    fn row(&self, y: usize, u: f64, wrap: bool) -> Texel {
+        let (left, right, f) = if wrap {
+            wrapped(u, self.width)
+        } else {
+            clamped(u, self.width)
+        };
+        mix(self.texel(left, y), self.texel(right, y), f)
+    }
+
+    fn texel(&self, x: usize, y: usize) -> Texel {
+        let at = (y * self.width as usize + x) * self.channels;
+        let codes = at..at + self.channels;
+        match &self.texels {
+            Texels::Eight(all) => texel(&all[codes], &LINEAR_8),
+            Texels::Sixteen(all) => texel(&all[codes], &LINEAR_16),
+        }
+    }
+}
+
+impl std::fmt::Debug for Texture {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Texture")
+            .field("width", &self.width)
+            .field("height", &self.height)
+            .field("channels", &self.channels)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Decodes one pixel. `linear` has one entry a code, so its length tells the range.
+fn texel<C: Copy + Into<u32>>(codes: &[C], linear: &[f32]) -> Texel {
+    let light = |code: C| f64::from(linear[code.into() as usize]);
+    let alpha = |code: C| f64::from(code.into()) / (linear.len() - 1) as f64;
+    match *codes {
+        [y] => [light(y), light(y), light(y), 1.0],
+        [y, a] => [light(y), light(y), light(y), 1.0].map(|c| c * alpha(a)),
+        [r, g, b] => [light(r), light(g), light(b), 1.0],
+        [r, g, b, a] => [light(r), light(g), light(b), 1.0].map(|c| c * alpha(a)),
+        _ => [0.0; 4],
+    }
+}
+
+fn finite(x: f64) -> f64 {
+    if x.is_finite() { x } else { 0.0 }
+}
+
+/// The pixels on both sides of a place, and how far it is from the first to the second.
+fn clamped(u: f64, n: u32) -> (usize, usize, f64) {
+    let last = f64::from(n - 1);
+    let x = (finite(u) * f64::from(n) - 0.5).clamp(0.0, last);
+    let i = x.floor();
+    (i as usize, (i + 1.0).min(last) as usize, x - i)
+}
+
+fn wrapped(u: f64, n: u32) -> (usize, usize, f64) {
+    let u = finite(u);
+    let x = (u - u.floor()) * f64::from(n) - 0.5;
+    let i = x.floor();
+    let pixel = |i: f64| (i as i64).rem_euclid(i64::from(n)) as usize;
+    (pixel(i), pixel(i + 1.0), x - i)
+}
+
+fn mix(a: Texel, b: Texel, f: f64) -> Texel {
+    std::array::from_fn(|k| a[k] * (1.0 - f) + b[k] * f)
+}
+
+fn sheet([r, g, b, alpha]: Texel) -> Sheet {
+    Sheet {
+        light: Light::new([r, g, b]),
+        opacity: alpha.min(1.0),
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, TextureFault> {
+    let mut file = File::open(path)?;
+    let mut bytes = Vec::new();
+    file.by_ref().take(32).read_to_end(&mut bytes)?;
+    // A foreign file may be a device without end; its beginning is enough to refuse it.
+    if image::guess_format(&bytes).is_ok() {
+        file.take(MAX_BYTES).read_to_end(&mut bytes)?;
+    }
+    if bytes.len() as u64 > MAX_BYTES {
+        return Err(TextureFault::FileTooLarge);
+    }
+    Ok(bytes)
+}

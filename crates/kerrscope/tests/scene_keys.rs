@@ -1,0 +1,294 @@
+//! Right scenes: every key is read, and has the default that the schema says.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::path::{Path, PathBuf};
+
+use kerrscope::scene::{self, Engine, Mapping, Method, Scene, SceneFile, Tone};
+use kerrscope::spacetime::observer;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_toml(text, Path::new("")).unwrap_or_else(|faults| panic!("{text}\n{faults}"))
+}
+
+#[test]
+fn nothing_is_the_built_in_scene() {
+    assert_eq!(scene(""), Scene::built_in());
+    assert_eq!(
+        scene("# Nothing yet.\n[spacetime]\n[camera]\n"),
+        Scene::built_in()
+    );
+    assert_eq!(Scene::load(None, &[]).unwrap(), Scene::built_in());
+    assert_eq!(scene(&Scene::built_in().to_toml()), Scene::built_in());
+}
+
+#[test]
+fn the_built_in_scene() {
+    let built_in = Scene::built_in();
+    assert_eq!(built_in.spacetime, scene::Spacetime::Kerr { spin: 0.99 });
+    let place = observer::Place {
+        r: 30.4,
+        theta: 80.5_f64.to_radians(),
+        phi: 0.0,
+    };
+    assert_eq!(
+        built_in.observer,
+        scene::Observer {
+            place,
+            motion: observer::Motion::Static
+        }
+    );
+    let kind = scene::ScreenKind::Pinhole {
+        height: 50_f64.to_radians(),
+    };
+    assert_eq!(
+        built_in.screen,
+        scene::Screen {
+            kind,
+            roll: 0.0,
+            look_at: None
+        }
+    );
+    let disk = built_in.disk.unwrap();
+    assert!((disk.inner - 1.45449793806).abs() < 1e-10);
+    assert_eq!(
+        (disk.outer, disk.brightness, disk.opacity),
+        (16.0, 1.0, 1.0)
+    );
+    assert_eq!(disk.surface, scene::Surface::Ring { seed: 1 });
+    assert_eq!((built_in.render.width, built_in.render.height), (960, 540));
+    assert_eq!(
+        (built_in.render.samples, built_in.render.max_steps),
+        (4, 10_000)
+    );
+    assert_eq!(built_in.display.bits, 8);
+}
+
+/// Each key in each of its forms, and what becomes of it.
+#[test]
+fn every_key() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let read = |text: &str| {
+        Scene::from_toml(text, file).unwrap_or_else(|faults| panic!("{text}\n{faults}"))
+    };
+
+    let s = read("spacetime = { name = \"schwarzschild\" }");
+    assert_eq!(s.spacetime, scene::Spacetime::Schwarzschild);
+    assert_eq!(s.file().spacetime.spin, Some(0.0));
+    assert_eq!(s.disk.unwrap().inner, 6.0);
+    let s = read("spacetime.name = \"minkowski\"\nspacetime.spin = 0\ndisk.inner = 1");
+    assert_eq!(s.spacetime, scene::Spacetime::Minkowski);
+    assert_eq!(s.spacetime.spin(), None);
+    // A disk around +z is a retrograde one if the hole turns the other way.
+    let s = read("spacetime.spin = -1");
+    assert_eq!(s.disk.unwrap().inner, 9.0);
+    let s = read("spacetime.spin = 1");
+    assert_eq!(s.disk.unwrap().inner, 1.0);
+
+    // A whole number does where a real one is wanted.
+    let s =
+        read("[observer]\ndistance = 100\ninclination = 90\nazimuth = -180\nmotion = \"orbit\"");
+    let place = observer::Place {
+        r: 100.0,
+        theta: FRAC_PI_2,
+        phi: -PI,
+    };
+    assert_eq!(
+        s.observer,
+        scene::Observer {
+            place,
+            motion: observer::Motion::Orbit
+        }
+    );
+    for (typed, motion) in [
+        ("\"static\"", observer::Motion::Static),
+        ("\"zamo\"", observer::Motion::ZeroAngularMomentum),
+        ("\"fall\"", observer::Motion::Fall),
+        (
+            "[0, -0.5, 0.5]",
+            observer::Motion::Velocity([0.0, -0.5, 0.5]),
+        ),
+        (
+            "{ velocity = [0, 0, 0.9] }",
+            observer::Motion::Velocity([0.0, 0.0, 0.9]),
+        ),
+        (
+            "{ velocity = [0, 0, 0.9], relative_to = \"zamo\" }",
+            observer::Motion::Velocity([0.0, 0.0, 0.9]),
+        ),
+        (
+            "{ velocity = [0.1, 0, 0], relative_to = \"fall\" }",
+            observer::Motion::VelocityFromFall([0.1, 0.0, 0.0]),
+        ),
+    ] {
+        let s = read(&format!("observer.motion = {typed}"));
+        assert_eq!(s.observer.motion, motion);
+    }
+    let s = read("[observer]\nposition = [0, 0, -12]\nmotion = \"fall\"");
+    assert_eq!((s.observer.place.r, s.observer.place.theta), (12.0, PI));
+    assert_eq!(s.file().observer.distance, None);
+    let s = read("observer.distance = inf\nscreen.kind = \"impact\"");
+    assert!(s.observer.place.r.is_infinite());
+    assert_eq!(s.screen.kind, scene::ScreenKind::Impact { height: 20.0 });
+    // Inside the horizon, above the inner one.
+    read("observer.distance = 1.1\nobserver.motion = \"fall\"");
+
+    let s =
+        read("[screen]\nkind = \"angular\"\nfield_of_view = 180\nroll = 90\nlook_at = [0, 0, 0]");
+    assert_eq!(s.screen.kind, scene::ScreenKind::Angular { height: PI });
+    assert_eq!(
+        (s.screen.roll, s.screen.look_at),
+        (FRAC_PI_2, Some([0.0; 3]))
+    );
+
+    let s = read("[disk]\nmodel = \"none\"\ninner = 20");
+    assert_eq!(s.disk, None);
+    let s = read(
+        "[disk]\ninner = 3\nouter = 9\ntilt = 180\nnode = 90\ncolor = [0, 0.5, 1]\nbrightness = 2\n\
+         opacity = 0.5\nseed = 9223372036854775807",
+    );
+    assert_eq!(
+        s.disk.unwrap(),
+        scene::Disk {
+            inner: 3.0,
+            outer: 9.0,
+            tilt: PI,
+            node: FRAC_PI_2,
+            surface: scene::Surface::Ring {
+                seed: i64::MAX as u64
+            },
+            color: [0.0, 0.5, 1.0],
+            brightness: 2.0,
+            opacity: 0.5,
+        }
+    );
+    for (typed, mapping) in [
+        ("", Mapping::Around),
+        ("mapping = \"around\"", Mapping::Around),
+        ("mapping = \"flat\"", Mapping::Flat),
+    ] {
+        let s = read(&format!(
+            "[disk]\nmodel = \"image\"\nimage = 'Cargo.toml'\n{typed}"
+        ));
+        let path = file.join("Cargo.toml");
+        let disk = s.disk.unwrap();
+        assert_eq!(disk.surface, scene::Surface::Picture { path, mapping });
+        // A picture keeps its colours.
+        assert_eq!(disk.color, [1.0; 3]);
+    }
+
+    let s = read("sky = { kind = \"black\", brightness = 0 }");
+    assert_eq!(
+        s.sky,
+        scene::Sky {
+            picture: scene::SkyPicture::Black,
+            brightness: 0.0
+        }
+    );
+    let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
+    assert_eq!(
+        s.sky.picture,
+        scene::SkyPicture::Uniform { color: [1.0; 3] }
+    );
+    for spacing in ["0.1", "0.3", "11.25", "22.5", "90"] {
+        let s = read(&format!("[sky]\nspacing = {spacing}"));
+        assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));
+    }
+    let s = read("sky = { kind = \"panorama\", image = \"src/lib.rs\", longitude = 0 }");
+    let path: PathBuf = file.join("src/lib.rs");
+    assert_eq!(
+        s.sky.picture,
+        scene::SkyPicture::Panorama {
+            path,
+            longitude: 0.0
+        }
+    );
+
+    let s = read(
+        "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\
+         engine = \"integrator\"\nmethod = \"rk4\"\ntolerance = 1e-14\nstep = 1\nmax_steps = 1000000\n\
+         max_crossings = 64\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
+    );
+    assert_eq!(
+        s.render,
+        scene::Render {
+            width: 1,
+            height: 16384,
+            samples: 65536,
+            seed: 0,
+            jitter: false,
+            engine: Engine::Integrator,
+            method: Method::Rk4,
+            tolerance: 1e-14,
+            step: 1.0,
+            max_steps: 1_000_000,
+            max_crossings: 64,
+        }
+    );
+    assert_eq!(
+        s.display,
+        scene::Display {
+            exposure: -2.0,
+            tone: Tone::None,
+            bits: 16
+        }
+    );
+    let s = read("render.method = \"rk4\"");
+    assert_eq!((s.render.step, s.file().render.step), (0.1, Some(0.1)));
+    assert_eq!(
+        read("render.method = \"tsit5\"").render.method,
+        Method::Tsit5
+    );
+}
+
+#[test]
+fn windows_writes_scenes_too() {
+    assert_eq!(
+        scene("\u{feff}[spacetime]\r\nspin = 0.5\r\n")
+            .spacetime
+            .spin(),
+        Some(0.5)
+    );
+}
+
+/// The defaults of the schema, typed out, are the built-in scene.
+#[test]
+fn schema_tells_the_defaults() {
+    fn defaults(schema: &serde_json::Value, path: &str, into: &mut String) {
+        for (key, schema) in schema["properties"].as_object().unwrap() {
+            let path = format!("{path}{key}");
+            if schema["type"] == "object" {
+                defaults(schema, &format!("{path}."), into);
+            } else if let Some(default) = schema.get("default") {
+                assert!(!default.is_null(), "{path}");
+                into.extend([&path, " = ", &default.to_string(), "\n"]);
+            }
+        }
+    }
+    let mut text = String::new();
+    defaults(&SceneFile::schema(), "", &mut text);
+    assert!(text.contains("observer.distance = 30.4\n"), "{text}");
+    // `field_of_view` and the like say there what they are in the built-in scene.
+    let typed = SceneFile::from_toml(&text).unwrap();
+    assert_eq!(typed, SceneFile::default().complete());
+    assert_eq!(SceneFile::from_toml("").unwrap(), SceneFile::default());
+}
+
+/// Every key says what it means, and every number has its bounds.
+#[test]
+fn schema_describes_every_key() {
+    fn walk(schema: &serde_json::Value, path: &str) {
+        assert_eq!(schema["additionalProperties"], false, "{path}");
+        for (key, schema) in schema["properties"].as_object().unwrap() {
+            let path = format!("{path}.{key}");
+            assert!(schema["description"].is_string(), "{path}");
+            if schema["type"] == "number" || schema["type"] == "integer" {
+                let lower = schema.get("minimum").or(schema.get("exclusiveMinimum"));
+                assert!(lower.is_some() && schema.get("maximum").is_some(), "{path}");
+            }
+            if schema["type"] == "object" {
+                walk(schema, &path);
+            }
+        }
+    }
+    walk(&SceneFile::schema(), "");
+}
