@@ -78,8 +78,9 @@ fn compare(spin: f64, degrees: f64) -> Result<Row, String> {
         .map(|j| {
             let mut path = Ray::default();
             let captured = |i: u32, path: &mut Ray| {
-                let ray = impact_ray(Some(spin), f64::to_radians(degrees), f64::INFINITY, [place(i), place(j)])
-                    .map_err(|e| e.to_string())?;
+                let ray =
+                    impact_ray(Some(spin), f64::to_radians(degrees), f64::INFINITY, [place(i), place(j)])
+                        .map_err(|e| e.to_string())?;
                 tracer.trace(&ray, &query, path);
                 Ok(path.fate == Fate::Captured)
             };
@@ -105,9 +106,8 @@ fn compare(spin: f64, degrees: f64) -> Result<Row, String> {
         }
     }
     let farthest = |from: &[[f64; 2]], to: &[[f64; 2]]| {
-        let distance = |p: &[f64; 2]| {
-            to.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min)
-        };
+        let distance =
+            |p: &[f64; 2]| to.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::INFINITY, f64::min);
         from.par_iter().map(distance).reduce(|| 0.0, f64::max) / pixel
     };
     let extent = curve.extent();

@@ -91,7 +91,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.format == Format::Json {
         return print_json(&rows);
     }
-    print("engine      method  tolerance  rays/s/core   sky error median / max    radius error median / max")?;
+    print(
+        "engine      method  tolerance  rays/s/core   sky error median / max    radius error median / max",
+    )?;
     for row in rows {
         let tolerance = row.tolerance.map_or_else(|| "-".to_owned(), |t| format!("{t:.0e}"));
         print(&format!(

@@ -93,7 +93,11 @@ fn parse_spin(text: &str) -> Result<f64, String> {
 /// An inclination in degrees, from the command line.
 fn parse_inclination(text: &str) -> Result<f64, String> {
     let degrees: f64 = text.parse().map_err(|_| "give degrees from 0 to 180".to_owned())?;
-    if (0.0..=180.0).contains(&degrees) { Ok(degrees) } else { Err("an inclination lies between 0 and 180 degrees".to_owned()) }
+    if (0.0..=180.0).contains(&degrees) {
+        Ok(degrees)
+    } else {
+        Err("an inclination lies between 0 and 180 degrees".to_owned())
+    }
 }
 
 /// A finite number, from the command line.

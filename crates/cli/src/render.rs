@@ -104,7 +104,7 @@ fn write(scene: &Scene, film: &Film, path: &Path) -> Result<(), Failure> {
         seed: scene.render.seed,
         instruction_level: instruction_level().to_owned(),
     };
-    let display = kerrscope::display::Display { exposure: scene.display.exposure, tone: match scene.display.tone { kerrscope::scene::Tone::Neutral => kerrscope::display::Tone::Neutral, kerrscope::scene::Tone::None => kerrscope::display::Tone::None } };
+    let display = kerrscope::display::Display { exposure: scene.display.exposure, tone: scene.display.tone };
     let depth = if scene.display.bits == 16 { Depth::Sixteen } else { Depth::Eight };
     Png { display, depth }
         .write(path, film.width, film.height, &film.pixels, &made)

@@ -29,11 +29,14 @@ impl Failure {
     pub fn report(self) -> ExitCode {
         match self {
             Self::Scene(faults) => {
-                for fault in faults.iter() {
+                for fault in &faults {
                     eprint!("{}", drawn(fault));
                 }
                 let count = faults.iter().count();
-                eprintln!("{count} fault{} in the scene; nothing was done.", if count == 1 { "" } else { "s" });
+                eprintln!(
+                    "{count} fault{} in the scene; nothing was done.",
+                    if count == 1 { "" } else { "s" }
+                );
                 ExitCode::from(2)
             }
             Self::Input(message) => {

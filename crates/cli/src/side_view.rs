@@ -27,10 +27,7 @@ pub fn draw(path: &Path, horizon: f64, title: &str) -> String {
     let ((left, right), (low, high)) = (span(0), span(1));
     let scale = ((WIDTH - 2.0 * MARGIN) / (right - left)).min((HEIGHT - 3.0 * MARGIN) / (high - low));
     let place = |x: f64, z: f64| {
-        (
-            0.5 * WIDTH + (x - 0.5 * (left + right)) * scale,
-            0.5 * HEIGHT - (z - 0.5 * (low + high)) * scale,
-        )
+        (0.5 * WIDTH + (x - 0.5 * (left + right)) * scale, 0.5 * HEIGHT - (z - 0.5 * (low + high)) * scale)
     };
     let mut svg = String::new();
     let (x0, y0) = place(0.0, 0.0);
@@ -63,7 +60,10 @@ pub fn draw(path: &Path, horizon: f64, title: &str) -> String {
     }
     if let Some([x, z]) = points.first() {
         let (x, y) = place(*x, *z);
-        let _ = writeln!(svg, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"5\" fill=\"#fff\" stroke=\"#205090\" stroke-width=\"2\"/>");
+        let _ = writeln!(
+            svg,
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"5\" fill=\"#fff\" stroke=\"#205090\" stroke-width=\"2\"/>"
+        );
     }
     let unit = 10f64.powf(((right - left) / 4.0).log10().floor());
     let _ = write!(

@@ -161,7 +161,9 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
         return Err(Failure::Input("--spin needs a ray: give --alpha and --beta in M".to_owned()));
     };
     if !arguments.set.is_empty() {
-        return Err(Failure::Input("--set changes a scene: leave out --spin and --inclination, or --set".to_owned()));
+        return Err(Failure::Input(
+            "--set changes a scene: leave out --spin and --inclination, or --set".to_owned(),
+        ));
     }
     if let Some(engine) = arguments.engine.as_deref().filter(|e| !matches!(*e, "auto" | "integrator")) {
         return Err(Failure::Input(format!("no engine is called {engine:?}: give auto or integrator")));
@@ -177,7 +179,8 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
 fn pixel(arguments: &Arguments, scene: &Scene) -> Result<[f64; 2], Failure> {
     let [x, y] = arguments.pixel[..] else {
         return Err(Failure::Input(
-            "which ray? give --pixel X,Y, or --alpha and --beta (with --spin and --inclination, or a scene)".to_owned(),
+            "which ray? give --pixel X,Y, or --alpha and --beta (with --spin and --inclination, or a scene)"
+                .to_owned(),
         ));
     };
     let (width, height) = (scene.render.width, scene.render.height);
@@ -260,9 +263,18 @@ fn text(output: &Output) -> String {
     if output.crossings.is_empty() {
         let _ = write!(s, "no crossing of the equatorial plane");
     } else {
-        let _ = write!(s, "crossing {:>16} {:>16} {:>18} {:>14}", "r (M)", "phi (rad)", "time before (M)", "g");
+        let _ =
+            write!(s, "crossing {:>16} {:>16} {:>18} {:>14}", "r (M)", "phi (rad)", "time before (M)", "g");
         for c in &output.crossings {
-            let _ = write!(s, "\n{:>8} {:>16.9} {:>16} {:>18} {:>14}", c.order, c.r, show(c.phi), show(c.t), show(c.g));
+            let _ = write!(
+                s,
+                "\n{:>8} {:>16.9} {:>16} {:>18} {:>14}",
+                c.order,
+                c.r,
+                show(c.phi),
+                show(c.t),
+                show(c.g)
+            );
         }
     }
     for [t, x, y, z] in output.path.iter().flatten() {

@@ -25,7 +25,8 @@ fn orbits() {
 
 #[test]
 fn shadow() {
-    let value = here(&["shadow", "--spin", "0.9", "--inclination", "17", "--points", "12", "--format", "json"]);
+    let value =
+        here(&["shadow", "--spin", "0.9", "--inclination", "17", "--points", "12", "--format", "json"]);
     near(&value["alpha_min"], -4.303168, 1e-6);
     near(&value["beta_max"], 4.94500, 5e-6);
     near(&value["area"], 76.1857, 5e-5);
@@ -34,7 +35,19 @@ fn shadow() {
 
 #[test]
 fn a_ray_of_impact_parameters() {
-    let arguments = ["trace", "--spin", "0.42", "--inclination", "60", "--alpha", "-17", "--beta", "0", "--format", "json"];
+    let arguments = [
+        "trace",
+        "--spin",
+        "0.42",
+        "--inclination",
+        "60",
+        "--alpha",
+        "-17",
+        "--beta",
+        "0",
+        "--format",
+        "json",
+    ];
     let value = here(&arguments);
     assert_eq!((&value["engine"], &value["fate"]), (&"integrator".into(), &"escaped".into()));
     near(&value["conserved"]["lambda"], 17.0 * 60f64.to_radians().sin(), 1e-12);
@@ -51,7 +64,21 @@ fn a_ray_of_impact_parameters() {
 
 #[test]
 fn a_ray_that_does_not_come_back() {
-    let arguments = ["trace", "--spin", "0.9", "--inclination", "90", "--distance", "inf", "--alpha", "1", "--beta", "0", "--format", "json"];
+    let arguments = [
+        "trace",
+        "--spin",
+        "0.9",
+        "--inclination",
+        "90",
+        "--distance",
+        "inf",
+        "--alpha",
+        "1",
+        "--beta",
+        "0",
+        "--format",
+        "json",
+    ];
     let value = here(&arguments);
     assert_eq!(value["fate"], "captured");
     assert!(value["direction"].is_null());
@@ -60,7 +87,21 @@ fn a_ray_that_does_not_come_back() {
 
 #[test]
 fn a_path_in_four_formats() {
-    let ray = ["trace", "--spin", "0.9", "--inclination", "85", "--distance", "20", "--alpha", "4", "--beta", "3", "--path", "50"];
+    let ray = [
+        "trace",
+        "--spin",
+        "0.9",
+        "--inclination",
+        "85",
+        "--distance",
+        "20",
+        "--alpha",
+        "4",
+        "--beta",
+        "3",
+        "--path",
+        "50",
+    ];
     let print = |format: &str| {
         let output = run(Path::new("."), &[&ray[..], &["--format", format]].concat());
         assert!(output.status.success());
@@ -84,7 +125,17 @@ fn a_pixel_of_a_scene() {
     assert!(value["steps"].as_u64().unwrap() > 3);
     let centre = here(&["trace", "--pixel", "10,20", "--sample", "3", "--format", "json"]);
     assert_eq!(centre["fate"], "escaped");
-    let flat = here(&["trace", "--pixel", "3,3", "--set", "spacetime.name=minkowski", "--set", "disk.model=none", "--format", "json"]);
+    let flat = here(&[
+        "trace",
+        "--pixel",
+        "3,3",
+        "--set",
+        "spacetime.name=minkowski",
+        "--set",
+        "disk.model=none",
+        "--format",
+        "json",
+    ]);
     assert_eq!(flat["engine"], "straight");
 }
 
@@ -98,7 +149,19 @@ fn wrong_questions_exit_with_2() {
         &["trace", "--spin", "0.5", "--inclination", "60"],
         &["trace", "--alpha", "1"],
         &["trace", "--pixel", "5000,1"],
-        &["trace", "--spin", "0.9", "--inclination", "90", "--distance", "1.5", "--alpha", "1", "--beta", "1"],
+        &[
+            "trace",
+            "--spin",
+            "0.9",
+            "--inclination",
+            "90",
+            "--distance",
+            "1.5",
+            "--alpha",
+            "1",
+            "--beta",
+            "1",
+        ],
         &["trace", "--spin", "0.9", "--inclination", "60", "--alpha", "nan", "--beta", "1"],
     ];
     for arguments in wrong {

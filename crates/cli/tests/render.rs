@@ -66,8 +66,11 @@ fn json_names_what_was_done() {
 #[test]
 fn wrong_input_exits_with_2_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("bad.toml"), "[spacetime]\nspin = 1.5\nspeen = 1\n[render]\nwidth = \"wide\"\n")
-        .unwrap();
+    fs::write(
+        folder.path().join("bad.toml"),
+        "[spacetime]\nspin = 1.5\nspeen = 1\n[render]\nwidth = \"wide\"\n",
+    )
+    .unwrap();
     let output = run(folder.path(), &["render", "bad.toml"]);
     assert_eq!(output.status.code(), Some(2));
     let text = String::from_utf8_lossy(&output.stderr);
@@ -75,7 +78,12 @@ fn wrong_input_exits_with_2_and_writes_nothing() {
         assert!(text.contains(expected), "{expected:?} is missing in:\n{text}");
     }
     assert!(!folder.path().join("bad.png").exists());
-    for arguments in [&["render", "-o", "a.gif"][..], &["render", "--set", "spin=1"], &["render", "none.toml"], &["rendre"]] {
+    for arguments in [
+        &["render", "-o", "a.gif"][..],
+        &["render", "--set", "spin=1"],
+        &["render", "none.toml"],
+        &["rendre"],
+    ] {
         let output = run(folder.path(), arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
         assert!(!output.stderr.is_empty());

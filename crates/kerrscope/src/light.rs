@@ -23,9 +23,7 @@ impl Light {
 impl Add for Light {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self {
-            rgb: std::array::from_fn(|i| self.rgb[i] + other.rgb[i]),
-        }
+        Self { rgb: std::array::from_fn(|i| self.rgb[i] + other.rgb[i]) }
     }
 }
 
@@ -38,9 +36,7 @@ impl AddAssign for Light {
 impl Mul<f64> for Light {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
-        Self {
-            rgb: self.rgb.map(|c| c * factor),
-        }
+        Self { rgb: self.rgb.map(|c| c * factor) }
     }
 }
 
@@ -77,10 +73,7 @@ impl Default for Beam {
 impl Beam {
     /// A beam that has met nothing.
     pub const fn new() -> Self {
-        Self {
-            light: Light::DARK,
-            transmittance: 1.0,
-        }
+        Self { light: Light::DARK, transmittance: 1.0 }
     }
 
     /// Passes through a sheet behind all those met so far.

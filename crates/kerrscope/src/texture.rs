@@ -37,9 +37,7 @@ static LINEAR_8: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(255));
 static LINEAR_16: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(65535));
 
 fn linear_table(top: u32) -> Vec<f32> {
-    (0..=top)
-        .map(|code| srgb::decode(f64::from(code) / f64::from(top)) as f32)
-        .collect()
+    (0..=top).map(|code| srgb::decode(f64::from(code) / f64::from(top)) as f32).collect()
 }
 
 /// A picture in memory, sampled in linear light.
@@ -84,10 +82,7 @@ impl Texture {
         let path = path.as_ref();
         read(path)
             .and_then(|bytes| Self::decode(&bytes))
-            .map_err(|fault| TextureError {
-                path: path.to_path_buf(),
-                fault,
-            })
+            .map_err(|fault| TextureError { path: path.to_path_buf(), fault })
     }
 
     /// Decodes the contents of a PNG or JPEG file.
@@ -105,10 +100,7 @@ impl Texture {
             ImageFormat::Jpeg if jpeg::is_whole(bytes) => {}
             ImageFormat::Jpeg => return Err(TextureFault::Truncated),
             other => {
-                let name = other
-                    .extensions_str()
-                    .first()
-                    .map(|name| name.to_uppercase());
+                let name = other.extensions_str().first().map(|name| name.to_uppercase());
                 return Err(TextureFault::Foreign(name));
             }
         }
@@ -122,9 +114,7 @@ impl Texture {
         let mut limits = Limits::default();
         // The buffer of the picture itself and the decoder's own.
         limits.max_alloc = Some(2 * MAX_BYTES);
-        decoder
-            .set_limits(limits)
-            .map_err(TextureFault::from_image)?;
+        decoder.set_limits(limits).map_err(TextureFault::from_image)?;
         let orientation = decoder.orientation().map_err(TextureFault::from_image)?;
         let mut image = DynamicImage::from_decoder(decoder).map_err(TextureFault::from_image)?;
         image.apply_orientation(orientation);
@@ -143,12 +133,7 @@ impl Texture {
             DynamicImage::ImageRgb16(i) => (3, Texels::Sixteen(i.into_raw())),
             other => (4, Texels::Sixteen(other.into_rgba16().into_raw())),
         };
-        Self {
-            width,
-            height,
-            channels,
-            texels,
-        }
+        Self { width, height, channels, texels }
     }
 
     /// Width in pixels.
@@ -166,11 +151,7 @@ impl Texture {
     /// left edge continues the right one. Finite for any `u` and `v`.
     pub fn sample(&self, u: f64, v: f64, wrap_u: bool) -> Sheet {
         let (upper, lower, f) = clamped(v, self.height);
-        sheet(mix(
-            self.row(upper, u, wrap_u),
-            self.row(lower, u, wrap_u),
-            f,
-        ))
+        sheet(mix(self.row(upper, u, wrap_u), self.row(lower, u, wrap_u), f))
     }
 
     /// As [`Texture::sample`] for a picture that covers a sphere, poles at the top and
@@ -182,21 +163,13 @@ impl Texture {
         let last = f64::from(self.height - 1);
         let row = |y: f64| {
             let beyond = y < 0.0 || y > last;
-            self.row(
-                y.clamp(0.0, last) as usize,
-                if beyond { u + 0.5 } else { u },
-                true,
-            )
+            self.row(y.clamp(0.0, last) as usize, if beyond { u + 0.5 } else { u }, true)
         };
         sheet(mix(row(upper), row(upper + 1.0), f))
     }
 
     fn row(&self, y: usize, u: f64, wrap: bool) -> Texel {
-        let (left, right, f) = if wrap {
-            wrapped(u, self.width)
-        } else {
-            clamped(u, self.width)
-        };
+        let (left, right, f) = if wrap { wrapped(u, self.width) } else { clamped(u, self.width) };
         mix(self.texel(left, y), self.texel(right, y), f)
     }
 
@@ -258,10 +231,7 @@ fn mix(a: Texel, b: Texel, f: f64) -> Texel {
 }
 
 fn sheet([r, g, b, alpha]: Texel) -> Sheet {
-    Sheet {
-        light: Light::new([r, g, b]),
-        opacity: alpha.min(1.0),
-    }
+    Sheet { light: Light::new([r, g, b]), opacity: alpha.min(1.0) }
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, TextureFault> {

@@ -11,11 +11,7 @@ use proptest::prelude::*;
 fn ring(seed: u64) -> Disk {
     // Most tests use the same ring; its tables take milliseconds.
     static FIRST: LazyLock<Ring> = LazyLock::new(|| Ring::new(1));
-    let ring = if seed == 1 {
-        FIRST.clone()
-    } else {
-        Ring::new(seed)
-    };
+    let ring = if seed == 1 { FIRST.clone() } else { Ring::new(seed) };
     Disk {
         inner: 6.0,
         outer: 16.0,
@@ -36,10 +32,7 @@ fn pictured(image: &image::GrayImage, mapping: Mapping) -> Disk {
     let mut to = std::io::Cursor::new(&mut file);
     image.write_to(&mut to, image::ImageFormat::Png).unwrap();
     let texture = Texture::decode(&file).unwrap();
-    Disk {
-        surface: Surface::Picture(Picture { texture, mapping }),
-        ..ring(1)
-    }
+    Disk { surface: Surface::Picture(Picture { texture, mapping }), ..ring(1) }
 }
 
 fn dot(n: u32, m: u32, x: u32, y: u32) -> image::GrayImage {
@@ -53,9 +46,7 @@ fn profile(disk: &Disk, n: u32) -> Vec<f64> {
     (0..=n)
         .map(|i| {
             let r = 6.0 + 10.0 * f64::from(i) / f64::from(n);
-            (0..16)
-                .map(|k| at(disk, r, f64::from(k) * TAU / 16.0).opacity / 16.0)
-                .sum()
+            (0..16).map(|k| at(disk, r, f64::from(k) * TAU / 16.0).opacity / 16.0).sum()
         })
         .collect()
 }
@@ -63,13 +54,7 @@ fn profile(disk: &Disk, n: u32) -> Vec<f64> {
 #[test]
 fn nothing_is_seen_outside_the_radii() {
     for radius in [5.999, 16.001, 0.0, -8.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(
-            ring(1).sheet(&DiskHit {
-                radius,
-                position: [1.0, 0.0, 0.0]
-            }),
-            None
-        );
+        assert_eq!(ring(1).sheet(&DiskHit { radius, position: [1.0, 0.0, 0.0] }), None);
     }
 }
 
@@ -94,14 +79,9 @@ fn there_are_bright_and_dark_bands() {
     for seed in 1..10 {
         let profile = profile(&ring(seed), 1000);
         let inside = &profile[100..900];
-        let (low, high) = inside
-            .iter()
-            .fold((1.0_f64, 0.0_f64), |(l, h), &x| (l.min(x), h.max(x)));
+        let (low, high) = inside.iter().fold((1.0_f64, 0.0_f64), |(l, h), &x| (l.min(x), h.max(x)));
         assert!(high > 2.5 * low, "seed {seed}: {low} {high}");
-        let peaks = inside
-            .windows(3)
-            .filter(|w| w[1] > w[0] && w[1] > w[2])
-            .count();
+        let peaks = inside.windows(3).filter(|w| w[1] > w[0] && w[1] > w[2]).count();
         assert!((8..80).contains(&peaks), "seed {seed}: {peaks} bands");
     }
 }
@@ -131,8 +111,7 @@ fn the_ring_has_no_seam() {
             assert!((here.opacity - there.opacity).abs() < 1e-5);
             // Not only the value goes on but also the slope.
             let h = 0.02;
-            let [a, b, c, d] =
-                [-2.0, -1.0, 1.0, 2.0].map(|k| at(&disk, r, azimuth + k * h).opacity);
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| at(&disk, r, azimuth + k * h).opacity);
             assert!(((b - a) - (d - c)).abs() < 0.01, "{a} {b} {c} {d}");
         }
     }
@@ -177,11 +156,7 @@ const RING_1_AT_9: f64 = 0.5479862809181215;
 #[test]
 fn brightness_and_opacity_are_factors() {
     let plain = ring(2);
-    let changed = Disk {
-        tint: [3.0; 3],
-        opacity: 0.5,
-        ..plain.clone()
-    };
+    let changed = Disk { tint: [3.0; 3], opacity: 0.5, ..plain.clone() };
     let (a, b) = (at(&plain, 9.0, 1.0), at(&changed, 9.0, 1.0));
     assert!((b.opacity - 0.5 * a.opacity).abs() < 1e-15);
     assert!((b.light.rgb[0] - 1.5 * a.light.rgb[0]).abs() < 1e-15);
@@ -223,38 +198,19 @@ fn alpha_of_a_picture_is_opacity() {
     let mut to = std::io::Cursor::new(&mut file);
     image.write_to(&mut to, image::ImageFormat::Png).unwrap();
     let texture = Texture::decode(&file).unwrap();
-    let surface = Surface::Picture(Picture {
-        texture,
-        mapping: Mapping::Around,
-    });
-    let sheet = at(
-        &Disk {
-            surface,
-            opacity: 0.5,
-            ..ring(1)
-        },
-        9.0,
-        0.0,
-    );
+    let surface = Surface::Picture(Picture { texture, mapping: Mapping::Around });
+    let sheet = at(&Disk { surface, opacity: 0.5, ..ring(1) }, 9.0, 0.0);
     assert!((sheet.opacity - 0.1).abs() < 1e-12 && (sheet.light.rgb[0] - 0.1).abs() < 1e-12);
 }
 
 #[test]
 fn azimuth_is_counted_in_a_tilted_plane() {
     // Tilted by 90° about the x axis: the disk stands up, and +z is 90° ahead of +x.
-    let disk = Disk {
-        plane: Plane::new(FRAC_PI_2, 0.0),
-        ..pictured(&dot(4, 1, 1, 0), Mapping::Around)
-    };
+    let disk = Disk { plane: Plane::new(FRAC_PI_2, 0.0), ..pictured(&dot(4, 1, 1, 0), Mapping::Around) };
     let radius = 10.0;
     let c = radius * FRAC_1_SQRT_2;
     // Column 1 of 4 is azimuth 135°: half-way from +z to −x.
-    let sheet = disk
-        .sheet(&DiskHit {
-            radius,
-            position: [-c, 0.0, c],
-        })
-        .unwrap();
+    let sheet = disk.sheet(&DiskHit { radius, position: [-c, 0.0, c] }).unwrap();
     assert!((sheet.light.rgb[0] - 1.0).abs() < 1e-9);
 }
 

@@ -4,14 +4,8 @@ use kerrscope::display::{Display, Tone, srgb};
 use kerrscope::light::Light;
 use proptest::prelude::*;
 
-const NEUTRAL: Display = Display {
-    exposure: 0.0,
-    tone: Tone::Neutral,
-};
-const NONE: Display = Display {
-    exposure: 0.0,
-    tone: Tone::None,
-};
+const NEUTRAL: Display = Display { exposure: 0.0, tone: Tone::Neutral };
+const NONE: Display = Display { exposure: 0.0, tone: Tone::None };
 
 #[test]
 fn srgb_agrees_with_reference_values() {
@@ -36,10 +30,7 @@ fn every_16_bit_code_survives_decoding_and_encoding() {
     for code in 0..=65535_u32 {
         let encoded = f64::from(code) / 65535.0;
         // The branches of the standard differ by 3e-8 where they meet; steps are 1.5e-5.
-        assert!(
-            (srgb::encode(srgb::decode(encoded)) - encoded).abs() < 1e-7,
-            "{code}"
-        );
+        assert!((srgb::encode(srgb::decode(encoded)) - encoded).abs() < 1e-7, "{code}");
     }
 }
 
@@ -61,10 +52,7 @@ fn neutral_agrees_with_its_formula() {
     // By hand: p = 2, p' = 1 − 0.24² / (2 + 1 − 1.52) = 0.961081…,
     // w = 1 − 1 / (0.15 (2 − p') + 1) = 0.134826…
     let out = Tone::Neutral.apply([2.0, 1.0, 0.0]);
-    for (out, by_hand) in out
-        .into_iter()
-        .zip([0.961081081081, 0.545330250982, 0.129579420884])
-    {
+    for (out, by_hand) in out.into_iter().zip([0.961081081081, 0.545330250982, 0.129579420884]) {
         assert!((out - by_hand).abs() < 1e-11, "{out} {by_hand}");
     }
 }
@@ -89,25 +77,13 @@ fn very_bright_colours_turn_white() {
 
 #[test]
 fn anything_gives_display_values() {
-    let odd = [
-        f64::NAN,
-        f64::INFINITY,
-        f64::NEG_INFINITY,
-        -1.0,
-        0.0,
-        1e-320,
-        1.0,
-        f64::MAX,
-    ];
+    let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 1e-320, 1.0, f64::MAX];
     for tone in [Tone::Neutral, Tone::None] {
         for exposure in [0.0, 1e9, -1e9, f64::NAN, f64::INFINITY] {
             for r in odd {
                 for g in odd {
                     let rgb = Display { exposure, tone }.encode(Light::new([r, g, 0.3]));
-                    assert!(
-                        rgb.iter().all(|c| (0.0..=1.0).contains(c)),
-                        "{r} {g} {rgb:?}"
-                    );
+                    assert!(rgb.iter().all(|c| (0.0..=1.0).contains(c)), "{r} {g} {rgb:?}");
                 }
             }
         }

@@ -19,26 +19,16 @@ fn provenance() -> Provenance {
 }
 
 fn plain(depth: Depth) -> Png {
-    Png {
-        display: Display {
-            exposure: 0.0,
-            tone: Tone::None,
-        },
-        depth,
-    }
+    Png { display: Display { exposure: 0.0, tone: Tone::None }, depth }
 }
 
 fn ramp(n: u32) -> Vec<Light> {
-    (0..n)
-        .map(|i| f64::from(i) / f64::from(n - 1))
-        .map(|x| Light::new([x, 1.0 - x, x * x]))
-        .collect()
+    (0..n).map(|i| f64::from(i) / f64::from(n - 1)).map(|x| Light::new([x, 1.0 - x, x * x])).collect()
 }
 
 fn encode(png: &Png, width: u32, height: u32, pixels: &[Light]) -> Vec<u8> {
     let mut file = Vec::new();
-    png.encode(&mut file, width, height, pixels, &provenance())
-        .unwrap();
+    png.encode(&mut file, width, height, pixels, &provenance()).unwrap();
     file
 }
 
@@ -53,10 +43,7 @@ fn pixels_are_the_nearest_steps_of_their_display_values() {
             Depth::Sixteen => 65535.0,
         };
         let image = image::load_from_memory(&encode(&plain(depth), 16, 9, &pixels)).unwrap();
-        assert_eq!(
-            image.color().bits_per_pixel(),
-            if steps > 255.0 { 48 } else { 24 }
-        );
+        assert_eq!(image.color().bits_per_pixel(), if steps > 255.0 { 48 } else { 24 });
         // Codes of 8 bits are widened to 257 times as much, which is exact.
         for (pixel, &light) in image.to_rgb16().pixels().zip(&pixels) {
             let values = plain(depth).display.encode(light);
@@ -70,15 +57,8 @@ fn pixels_are_the_nearest_steps_of_their_display_values() {
 
 #[test]
 fn rows_go_from_the_top() {
-    let pixels = [
-        [1.0, 0.0, 0.0],
-        [0.0, 1.0, 0.0],
-        [0.0, 0.0, 1.0],
-        [1.0; 3],
-        [0.0; 3],
-        [1.0, 1.0, 0.0],
-    ]
-    .map(Light::new);
+    let pixels = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3], [0.0; 3], [1.0, 1.0, 0.0]]
+        .map(Light::new);
     let image = image::load_from_memory(&encode(&plain(Depth::Eight), 2, 3, &pixels)).unwrap();
     assert_eq!(image.to_rgb8().get_pixel(1, 0).0, [0, 255, 0]);
     assert_eq!(image.to_rgb8().get_pixel(0, 2).0, [0, 0, 0]);
@@ -104,10 +84,7 @@ fn the_chunks_are_those_that_the_format_wants() {
 fn the_same_picture_is_the_same_bytes_for_any_number_of_threads() {
     let pixels = ramp(300 * 200);
     let bytes = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .unwrap();
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         pool.install(|| encode(&Png::default(), 300, 200, &pixels))
     };
     assert_eq!(bytes(1), bytes(5));
@@ -117,9 +94,7 @@ fn the_same_picture_is_the_same_bytes_for_any_number_of_threads() {
 fn how_a_picture_was_made_can_be_read_back() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
-    Png::default()
-        .write(&path, 2, 1, &ramp(2), &provenance())
-        .unwrap();
+    Png::default().write(&path, 2, 1, &ramp(2), &provenance()).unwrap();
     assert_eq!(read_provenance(&path).unwrap(), provenance());
 }
 
@@ -127,10 +102,7 @@ fn how_a_picture_was_made_can_be_read_back() {
 fn a_zero_byte_in_a_scene_does_not_lose_the_picture() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.png");
-    let made = Provenance {
-        scene_toml: "a\0b".into(),
-        ..provenance()
-    };
+    let made = Provenance { scene_toml: "a\0b".into(), ..provenance() };
     Png::default().write(&path, 2, 1, &ramp(2), &made).unwrap();
     assert_eq!(read_provenance(&path).unwrap().scene_toml, "a\u{FFFD}b");
 }
@@ -194,18 +166,9 @@ fn what_is_no_provenance_is_refused_with_its_fault() {
     assert_eq!(parse(""), ProvenanceFault::Foreign);
     assert_eq!(parse("[spacetime]"), ProvenanceFault::Foreign);
     assert_eq!(parse(&text[..60]), ProvenanceFault::Truncated);
-    assert_eq!(
-        parse(&text.replace("seed", "sead")),
-        ProvenanceFault::Line("seed")
-    );
-    assert_eq!(
-        parse(&text.replace(&u64::MAX.to_string(), "-1")),
-        ProvenanceFault::Line("seed")
-    );
-    assert_eq!(
-        parse(&text.replace("\"1.2.3\"", "1.2")),
-        ProvenanceFault::Line("version")
-    );
+    assert_eq!(parse(&text.replace("seed", "sead")), ProvenanceFault::Line("seed"));
+    assert_eq!(parse(&text.replace(&u64::MAX.to_string(), "-1")), ProvenanceFault::Line("seed"));
+    assert_eq!(parse(&text.replace("\"1.2.3\"", "1.2")), ProvenanceFault::Line("version"));
     // Lines that a later version adds are passed over.
     let later = text.replacen("# seed", "# moon = \"full\"\n# seed", 1);
     assert_eq!(later.parse::<Provenance>(), Ok(provenance()));

@@ -8,10 +8,7 @@ use kerrscope::output::file::write_atomically;
 
 /// Names in a folder.
 fn listing(folder: &Path) -> Vec<String> {
-    fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect()
+    fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 #[test]
@@ -24,12 +21,7 @@ fn a_failure_leaves_the_old_file_and_nothing_else() {
         Err(io::Error::from(io::ErrorKind::StorageFull))
     })
     .unwrap_err();
-    assert!(
-        error
-            .to_string()
-            .contains("a.txt: the disk is full; make room"),
-        "{error}"
-    );
+    assert!(error.to_string().contains("a.txt: the disk is full; make room"), "{error}");
     assert_eq!(fs::read_to_string(&path).unwrap(), "old");
     assert_eq!(listing(folder.path()), ["a.txt"]);
 
@@ -72,10 +64,7 @@ fn what_cannot_be_written_says_why_and_what_to_do() {
         let path = in_folder(name);
         let message = write_atomically(&path, |_| Ok(())).unwrap_err().to_string();
         assert!(message.contains(path.to_str().unwrap()), "{message}");
-        assert!(
-            message.contains(fault) && message.contains(mend),
-            "{name}: {message}"
-        );
+        assert!(message.contains(fault) && message.contains(mend), "{name}: {message}");
     }
     assert!(write_atomically(Path::new(""), |_| Ok(())).is_err());
     assert_eq!(listing(folder.path()), ["file"]);
@@ -138,13 +127,7 @@ mod unix {
     fn a_pipe_is_written_to_and_stays_a_pipe() {
         let folder = tempfile::tempdir().unwrap();
         let pipe = folder.path().join("pipe");
-        assert!(
-            std::process::Command::new("mkfifo")
-                .arg(&pipe)
-                .status()
-                .unwrap()
-                .success()
-        );
+        assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
         let reader = std::thread::spawn({
             let pipe = pipe.clone();
             move || fs::read_to_string(pipe).unwrap()
@@ -158,9 +141,6 @@ mod unix {
     #[test]
     fn a_full_disk_is_named() {
         let error = write_atomically(Path::new("/dev/full"), |to| to.write_all(b"a")).unwrap_err();
-        assert!(
-            error.to_string().contains("/dev/full: the disk is full"),
-            "{error}"
-        );
+        assert!(error.to_string().contains("/dev/full: the disk is full"), "{error}");
     }
 }

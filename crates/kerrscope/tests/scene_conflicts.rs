@@ -104,12 +104,7 @@ fn impossible_observers() {
         ),
         (
             "motion = { relative_to = \"fall\" }",
-            (
-                2,
-                1,
-                "`observer.motion` lacks `velocity`",
-                "give `velocity`: a list of 3 numbers from -1 to 1",
-            ),
+            (2, 1, "`observer.motion` lacks `velocity`", "give `velocity`: a list of 3 numbers from -1 to 1"),
         ),
         (
             "distance = inf",
@@ -166,12 +161,7 @@ fn what_flat_space_lacks() {
                 "flat space does not turn: its spin cannot be 0.3",
                 "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
             ),
-            (
-                5,
-                10,
-                "nothing orbits in flat space",
-                "choose another motion, such as \"static\"",
-            ),
+            (5, 10, "nothing orbits in flat space", "choose another motion, such as \"static\""),
         ],
     );
     assert_faults(
@@ -207,12 +197,7 @@ fn screens_that_show_nothing() {
     );
     assert_faults(
         "[screen]\nkind = \"angular\"\nfield_of_view = 180.5\n",
-        &[(
-            3,
-            17,
-            "an angular picture cannot be 180.5° high",
-            "give 180 or less",
-        )],
+        &[(3, 17, "an angular picture cannot be 180.5° high", "give 180 or less")],
     );
     assert_faults(
         "[screen]\nkind = \"impact\"\nlook_at = [0, 0, 0]\n",

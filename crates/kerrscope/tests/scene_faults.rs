@@ -30,30 +30,15 @@ fn unknown_keys() {
         "[spacetime]\nspn = 0.9\n[screen]\nwidth = 400\n[rendr]\n[sky]\nmass = 1\n[display]\nbits = 8\n",
         &[
             (2, 1, "[spacetime] has no key `spn`", "did you mean `spin`?"),
-            (
-                4,
-                1,
-                "[screen] has no key `width`",
-                "`width` belongs in [render]",
-            ),
-            (
-                5,
-                2,
-                "there is no section [rendr]",
-                "did you mean [render]?",
-            ),
+            (4, 1, "[screen] has no key `width`", "`width` belongs in [render]"),
+            (5, 2, "there is no section [rendr]", "did you mean [render]?"),
             (
                 7,
                 1,
                 "[sky] has no key `mass`",
                 "[sky] has the keys brightness, color, image, kind, longitude, spacing",
             ),
-            (
-                8,
-                2,
-                "there is no section [display]",
-                "write [camera.display]",
-            ),
+            (8, 2, "there is no section [display]", "write [camera.display]"),
         ],
     );
 }
@@ -63,12 +48,7 @@ fn keys_outside_their_sections() {
     assert_faults(
         "spin = 0.9\nspacetime = 3\nfog = true\n[[sky]]\nkind = \"grid\"\n",
         &[
-            (
-                1,
-                1,
-                "`spin` is not in a section",
-                "`spin` belongs in [spacetime]",
-            ),
+            (1, 1, "`spin` is not in a section", "`spin` belongs in [spacetime]"),
             (
                 2,
                 13,
@@ -81,12 +61,7 @@ fn keys_outside_their_sections() {
                 "`fog` is not in a section",
                 "a scene has the sections [camera], [disk], [observer], [render], [screen], [sky], [spacetime]",
             ),
-            (
-                4,
-                1,
-                "`sky` cannot be a list",
-                "write [sky] on a line of its own, and its keys below",
-            ),
+            (4, 1, "`sky` cannot be a list", "write [sky] on a line of its own, and its keys below"),
         ],
     );
 }
@@ -97,60 +72,25 @@ fn wrong_types() {
         "[observer]\ndistance = \"30\"\n[render]\nwidth = 960.0\nheight = 9.5\njitter = 1\nseed = 2020-01-01\n\
          [screen]\nlook_at = [1, 2]\nroll = true\n[disk]\ncolor = [1, \"red\", 0]\nimage = 3\n",
         &[
-            (
-                2,
-                12,
-                "`observer.distance` cannot be the text \"30\"",
-                "remove the quotation marks: 30",
-            ),
-            (
-                4,
-                9,
-                "`render.width` cannot be the real number 960.0",
-                "write it as a whole number, 960",
-            ),
+            (2, 12, "`observer.distance` cannot be the text \"30\"", "remove the quotation marks: 30"),
+            (4, 9, "`render.width` cannot be the real number 960.0", "write it as a whole number, 960"),
             (
                 5,
                 10,
                 "`render.height` cannot be the number 9.5",
                 "give a whole number from 1 to 16384; the default is 540",
             ),
-            (
-                6,
-                10,
-                "`render.jitter` cannot be the number 1",
-                "give true or false; the default is true",
-            ),
+            (6, 10, "`render.jitter` cannot be the number 1", "give true or false; the default is true"),
             (
                 7,
                 8,
                 "`render.seed` cannot be the date or time 2020-01-01",
                 "give a whole number from 0 to 9223372036854775807; the default is 1",
             ),
-            (
-                9,
-                11,
-                "`screen.look_at` has 2 values",
-                "give a list of 3 numbers from -1e15 to 1e15",
-            ),
-            (
-                10,
-                8,
-                "`screen.roll` cannot be true",
-                "give a number from -1e6 to 1e6; the default is 0",
-            ),
-            (
-                12,
-                13,
-                "`disk.color[1]` cannot be the text \"red\"",
-                "give a number from 0 to 1",
-            ),
-            (
-                13,
-                9,
-                "`disk.image` cannot be the number 3",
-                "give text in quotation marks",
-            ),
+            (9, 11, "`screen.look_at` has 2 values", "give a list of 3 numbers from -1e15 to 1e15"),
+            (10, 8, "`screen.roll` cannot be true", "give a number from -1e6 to 1e6; the default is 0"),
+            (12, 13, "`disk.color[1]` cannot be the text \"red\"", "give a number from 0 to 1"),
+            (13, 9, "`disk.image` cannot be the number 3", "give text in quotation marks"),
         ],
     );
 }
@@ -204,12 +144,7 @@ fn out_of_range() {
                 "1e999 is too large a number for `render.tolerance`",
                 "give a number from 1e-14 to 0.01; the default is 1e-8",
             ),
-            (
-                12,
-                8,
-                "`camera.display.bits` cannot be 12",
-                "give 8 or 16; the default is 8",
-            ),
+            (12, 8, "`camera.display.bits` cannot be 12", "give 8 or 16; the default is 8"),
             (
                 13,
                 12,
@@ -231,12 +166,7 @@ fn not_finite() {
                 "`observer.azimuth` cannot be nan, which is not a number",
                 "give a number from -1e6 to 1e6; the default is 0",
             ),
-            (
-                3,
-                16,
-                "`observer.position[1]` cannot be infinite",
-                "give a number from -1e15 to 1e15",
-            ),
+            (3, 16, "`observer.position[1]` cannot be infinite", "give a number from -1e15 to 1e15"),
             (
                 3,
                 21,
@@ -315,39 +245,14 @@ fn broken_grammar() {
             ),
             (4, 1, "[spacetime] has no key `spn`", "did you mean `spin`?"),
             (5, 6, "this header is never closed", "close it with `]`"),
-            (
-                6,
-                9,
-                "`3x` is no value",
-                "a number is written 0.5 or 1e-8, and text in quotation marks",
-            ),
-            (
-                8,
-                6,
-                "this key has no value",
-                "write `key = value`; a comment begins with `#`",
-            ),
+            (6, 9, "`3x` is no value", "a number is written 0.5 or 1e-8, and text in quotation marks"),
+            (8, 6, "this key has no value", "write `key = value`; a comment begins with `#`"),
             (9, 16, "this text is never closed", "end it with `\"`"),
             (10, 11, "this list is never closed", "close it with `]`"),
-            (
-                13,
-                10,
-                "`1 1 1` is no value",
-                "part the numbers by commas: 1, 1, 1",
-            ),
-            (
-                14,
-                13,
-                "there is no value after `=`",
-                "give a value, or remove the key for its default",
-            ),
+            (13, 10, "`1 1 1` is no value", "part the numbers by commas: 1, 1, 1"),
+            (14, 13, "there is no value after `=`", "give a value, or remove the key for its default"),
             (16, 1, "`spacing` is given twice", "keep one of the two"),
-            (
-                17,
-                4,
-                "this key has no value",
-                "write `key = value`; a comment begins with `#`",
-            ),
+            (17, 4, "this key has no value", "write `key = value`; a comment begins with `#`"),
         ],
     );
 }
@@ -358,18 +263,10 @@ fn unreadable_files() {
     let load = |name: &str| {
         let path = folder.path().join(name);
         let faults = Scene::load(Some(&path), &[]).unwrap_err();
-        faults
-            .to_string()
-            .replace(&folder.path().display().to_string(), "…")
+        faults.to_string().replace(&folder.path().display().to_string(), "…")
     };
-    assert_eq!(
-        load("none.toml"),
-        "…/none.toml: there is no such file\n  help: check the path"
-    );
-    assert_eq!(
-        load(""),
-        "…/: this is a folder\n  help: give the scene file within it"
-    );
+    assert_eq!(load("none.toml"), "…/none.toml: there is no such file\n  help: check the path");
+    assert_eq!(load(""), "…/: this is a folder\n  help: give the scene file within it");
     std::fs::write(folder.path().join("latin.toml"), b"[sky]\n# \xe9t\xe9\n").unwrap();
     assert_eq!(
         load("latin.toml"),

@@ -3,7 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 
-use kerrscope::scene::{self, Engine, Mapping, Method, Scene, SceneFile, Tone};
+use kerrscope::disk::Mapping;
+use kerrscope::display::Tone;
+use kerrscope::scene::{self, Engine, Method, Scene, SceneFile};
 use kerrscope::spacetime::observer;
 
 fn scene(text: &str) -> Scene {
@@ -13,10 +15,7 @@ fn scene(text: &str) -> Scene {
 #[test]
 fn nothing_is_the_built_in_scene() {
     assert_eq!(scene(""), Scene::built_in());
-    assert_eq!(
-        scene("# Nothing yet.\n[spacetime]\n[camera]\n"),
-        Scene::built_in()
-    );
+    assert_eq!(scene("# Nothing yet.\n[spacetime]\n[camera]\n"), Scene::built_in());
     assert_eq!(Scene::load(None, &[]).unwrap(), Scene::built_in());
     assert_eq!(scene(&Scene::built_in().to_toml()), Scene::built_in());
 }
@@ -25,41 +24,16 @@ fn nothing_is_the_built_in_scene() {
 fn the_built_in_scene() {
     let built_in = Scene::built_in();
     assert_eq!(built_in.spacetime, scene::Spacetime::Kerr { spin: 0.99 });
-    let place = observer::Place {
-        r: 30.4,
-        theta: 80.5_f64.to_radians(),
-        phi: 0.0,
-    };
-    assert_eq!(
-        built_in.observer,
-        scene::Observer {
-            place,
-            motion: observer::Motion::Static
-        }
-    );
-    let kind = scene::ScreenKind::Pinhole {
-        height: 50_f64.to_radians(),
-    };
-    assert_eq!(
-        built_in.screen,
-        scene::Screen {
-            kind,
-            roll: 0.0,
-            look_at: None
-        }
-    );
+    let place = observer::Place { r: 30.4, theta: 80.5_f64.to_radians(), phi: 0.0 };
+    assert_eq!(built_in.observer, scene::Observer { place, motion: observer::Motion::Static });
+    let kind = scene::ScreenKind::Pinhole { height: 50_f64.to_radians() };
+    assert_eq!(built_in.screen, scene::Screen { kind, roll: 0.0, look_at: None });
     let disk = built_in.disk.unwrap();
     assert!((disk.inner - 1.45449793806).abs() < 1e-10);
-    assert_eq!(
-        (disk.outer, disk.brightness, disk.opacity),
-        (16.0, 1.0, 1.0)
-    );
+    assert_eq!((disk.outer, disk.brightness, disk.opacity), (16.0, 1.0, 1.0));
     assert_eq!(disk.surface, scene::Surface::Ring { seed: 1 });
     assert_eq!((built_in.render.width, built_in.render.height), (960, 540));
-    assert_eq!(
-        (built_in.render.samples, built_in.render.max_steps),
-        (4, 10_000)
-    );
+    assert_eq!((built_in.render.samples, built_in.render.max_steps), (4, 10_000));
     assert_eq!(built_in.display.bits, 8);
 }
 
@@ -67,9 +41,7 @@ fn the_built_in_scene() {
 #[test]
 fn every_key() {
     let file = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let read = |text: &str| {
-        Scene::from_toml(text, file).unwrap_or_else(|faults| panic!("{text}\n{faults}"))
-    };
+    let read = |text: &str| Scene::from_toml(text, file).unwrap_or_else(|faults| panic!("{text}\n{faults}"));
 
     let s = read("spacetime = { name = \"schwarzschild\" }");
     assert_eq!(s.spacetime, scene::Spacetime::Schwarzschild);
@@ -85,36 +57,16 @@ fn every_key() {
     assert_eq!(s.disk.unwrap().inner, 1.0);
 
     // A whole number does where a real one is wanted.
-    let s =
-        read("[observer]\ndistance = 100\ninclination = 90\nazimuth = -180\nmotion = \"orbit\"");
-    let place = observer::Place {
-        r: 100.0,
-        theta: FRAC_PI_2,
-        phi: -PI,
-    };
-    assert_eq!(
-        s.observer,
-        scene::Observer {
-            place,
-            motion: observer::Motion::Orbit
-        }
-    );
+    let s = read("[observer]\ndistance = 100\ninclination = 90\nazimuth = -180\nmotion = \"orbit\"");
+    let place = observer::Place { r: 100.0, theta: FRAC_PI_2, phi: -PI };
+    assert_eq!(s.observer, scene::Observer { place, motion: observer::Motion::Orbit });
     for (typed, motion) in [
         ("\"static\"", observer::Motion::Static),
         ("\"zamo\"", observer::Motion::ZeroAngularMomentum),
         ("\"fall\"", observer::Motion::Fall),
-        (
-            "[0, -0.5, 0.5]",
-            observer::Motion::Velocity([0.0, -0.5, 0.5]),
-        ),
-        (
-            "{ velocity = [0, 0, 0.9] }",
-            observer::Motion::Velocity([0.0, 0.0, 0.9]),
-        ),
-        (
-            "{ velocity = [0, 0, 0.9], relative_to = \"zamo\" }",
-            observer::Motion::Velocity([0.0, 0.0, 0.9]),
-        ),
+        ("[0, -0.5, 0.5]", observer::Motion::Velocity([0.0, -0.5, 0.5])),
+        ("{ velocity = [0, 0, 0.9] }", observer::Motion::Velocity([0.0, 0.0, 0.9])),
+        ("{ velocity = [0, 0, 0.9], relative_to = \"zamo\" }", observer::Motion::Velocity([0.0, 0.0, 0.9])),
         (
             "{ velocity = [0.1, 0, 0], relative_to = \"fall\" }",
             observer::Motion::VelocityFromFall([0.1, 0.0, 0.0]),
@@ -132,13 +84,9 @@ fn every_key() {
     // Inside the horizon, above the inner one.
     read("observer.distance = 1.1\nobserver.motion = \"fall\"");
 
-    let s =
-        read("[screen]\nkind = \"angular\"\nfield_of_view = 180\nroll = 90\nlook_at = [0, 0, 0]");
+    let s = read("[screen]\nkind = \"angular\"\nfield_of_view = 180\nroll = 90\nlook_at = [0, 0, 0]");
     assert_eq!(s.screen.kind, scene::ScreenKind::Angular { height: PI });
-    assert_eq!(
-        (s.screen.roll, s.screen.look_at),
-        (FRAC_PI_2, Some([0.0; 3]))
-    );
+    assert_eq!((s.screen.roll, s.screen.look_at), (FRAC_PI_2, Some([0.0; 3])));
 
     let s = read("[disk]\nmodel = \"none\"\ninner = 20");
     assert_eq!(s.disk, None);
@@ -153,9 +101,7 @@ fn every_key() {
             outer: 9.0,
             tilt: PI,
             node: FRAC_PI_2,
-            surface: scene::Surface::Ring {
-                seed: i64::MAX as u64
-            },
+            surface: scene::Surface::Ring { seed: i64::MAX as u64 },
             color: [0.0, 0.5, 1.0],
             brightness: 2.0,
             opacity: 0.5,
@@ -166,9 +112,7 @@ fn every_key() {
         ("mapping = \"around\"", Mapping::Around),
         ("mapping = \"flat\"", Mapping::Flat),
     ] {
-        let s = read(&format!(
-            "[disk]\nmodel = \"image\"\nimage = 'Cargo.toml'\n{typed}"
-        ));
+        let s = read(&format!("[disk]\nmodel = \"image\"\nimage = 'Cargo.toml'\n{typed}"));
         let path = file.join("Cargo.toml");
         let disk = s.disk.unwrap();
         assert_eq!(disk.surface, scene::Surface::Picture { path, mapping });
@@ -177,31 +121,16 @@ fn every_key() {
     }
 
     let s = read("sky = { kind = \"black\", brightness = 0 }");
-    assert_eq!(
-        s.sky,
-        scene::Sky {
-            picture: scene::SkyPicture::Black,
-            brightness: 0.0
-        }
-    );
+    assert_eq!(s.sky, scene::Sky { picture: scene::SkyPicture::Black, brightness: 0.0 });
     let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
-    assert_eq!(
-        s.sky.picture,
-        scene::SkyPicture::Uniform { color: [1.0; 3] }
-    );
+    assert_eq!(s.sky.picture, scene::SkyPicture::Uniform { color: [1.0; 3] });
     for spacing in ["0.1", "0.3", "11.25", "22.5", "90"] {
         let s = read(&format!("[sky]\nspacing = {spacing}"));
         assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));
     }
     let s = read("sky = { kind = \"panorama\", image = \"src/lib.rs\", longitude = 0 }");
     let path: PathBuf = file.join("src/lib.rs");
-    assert_eq!(
-        s.sky.picture,
-        scene::SkyPicture::Panorama {
-            path,
-            longitude: 0.0
-        }
-    );
+    assert_eq!(s.sky.picture, scene::SkyPicture::Panorama { path, longitude: 0.0 });
 
     let s = read(
         "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\
@@ -224,30 +153,15 @@ fn every_key() {
             max_crossings: 64,
         }
     );
-    assert_eq!(
-        s.display,
-        scene::Display {
-            exposure: -2.0,
-            tone: Tone::None,
-            bits: 16
-        }
-    );
+    assert_eq!(s.display, scene::Display { exposure: -2.0, tone: Tone::None, bits: 16 });
     let s = read("render.method = \"rk4\"");
     assert_eq!((s.render.step, s.file().render.step), (0.1, Some(0.1)));
-    assert_eq!(
-        read("render.method = \"tsit5\"").render.method,
-        Method::Tsit5
-    );
+    assert_eq!(read("render.method = \"tsit5\"").render.method, Method::Tsit5);
 }
 
 #[test]
 fn windows_writes_scenes_too() {
-    assert_eq!(
-        scene("\u{feff}[spacetime]\r\nspin = 0.5\r\n")
-            .spacetime
-            .spin(),
-        Some(0.5)
-    );
+    assert_eq!(scene("\u{feff}[spacetime]\r\nspin = 0.5\r\n").spacetime.spin(), Some(0.5));
 }
 
 /// The defaults of the schema, typed out, are the built-in scene.

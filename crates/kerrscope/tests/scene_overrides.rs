@@ -50,18 +50,10 @@ fn later_ones_hold() {
     let scene = load(&["render.width=1", "render.width=2"]).unwrap();
     assert_eq!(scene.render.width, 2);
     // A whole section, then a key of it.
-    let scene = load(&[
-        "spacetime={ name = \"kerr\", spin = 0.5 }",
-        "spacetime.spin=0.1",
-    ])
-    .unwrap();
+    let scene = load(&["spacetime={ name = \"kerr\", spin = 0.5 }", "spacetime.spin=0.1"]).unwrap();
     assert_eq!(scene.spacetime, Spacetime::Kerr { spin: 0.1 });
     // A word, then a table in its place.
-    let scene = load(&[
-        "observer.motion=fall",
-        "observer.motion.velocity=[0, 0, 0.5]",
-    ])
-    .unwrap();
+    let scene = load(&["observer.motion=fall", "observer.motion.velocity=[0, 0, 0.5]"]).unwrap();
     assert_eq!(scene.observer.motion, Motion::Velocity([0.0, 0.0, 0.5]));
 }
 
@@ -69,26 +61,17 @@ fn later_ones_hold() {
 fn they_hold_against_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.toml");
-    std::fs::write(
-        &path,
-        "[spacetime]\nspin = 7\n[render]\nwidth = 3\nheight = 5\n",
-    )
-    .unwrap();
+    std::fs::write(&path, "[spacetime]\nspin = 7\n[render]\nwidth = 3\nheight = 5\n").unwrap();
     let scene = load_file(Some(&path), &["spacetime.spin=0.7", "render.width=4"]).unwrap();
     assert_eq!(scene.spacetime.spin(), Some(0.7));
     assert_eq!((scene.render.width, scene.render.height), (4, 5));
 
     let faults = load_file(Some(&path), &["render.width=0", "disk.outer=1"]).unwrap_err();
-    let places: Vec<(String, Option<(usize, usize)>)> = faults
-        .iter()
-        .map(|fault| (fault.source.name.clone(), fault.line_column()))
-        .collect();
+    let places: Vec<(String, Option<(usize, usize)>)> =
+        faults.iter().map(|fault| (fault.source.name.clone(), fault.line_column())).collect();
     // The disk is not judged: its inner edge follows from a spin that is wrong.
     let name = path.display().to_string();
-    assert_eq!(
-        places,
-        [(name, Some((2, 8))), ("--set #1".to_owned(), Some((1, 14)))]
-    );
+    assert_eq!(places, [(name, Some((2, 8))), ("--set #1".to_owned(), Some((1, 14)))]);
 }
 
 #[test]
@@ -108,19 +91,8 @@ fn what_is_wrong_with_them_together_is_told_at_one() {
 #[test]
 fn wrong_paths() {
     let write = "write SECTION.KEY=VALUE, as in spacetime.spin=0.9";
-    assert_fault(
-        "=3",
-        &format!("--set #2:1:1: there is no path before `=`\n  help: {write}"),
-    );
-    for path in [
-        "spacetime..spin",
-        ".spin",
-        "spin.",
-        "[spacetime]",
-        "\"spin\"",
-        "space time",
-        "a#b",
-    ] {
+    assert_fault("=3", &format!("--set #2:1:1: there is no path before `=`\n  help: {write}"));
+    for path in ["spacetime..spin", ".spin", "spin.", "[spacetime]", "\"spin\"", "space time", "a#b"] {
         let expected = format!("--set #2:1:1: `{path}` is no path to a key\n  help: {write}");
         assert_fault(&format!("{path}=1"), &expected);
     }
@@ -142,14 +114,8 @@ fn wrong_paths() {
 #[test]
 fn wrong_values() {
     let write = "as in spacetime.spin=0.9";
-    assert_fault(
-        "",
-        &format!("--set #2:1:1: this override is empty\n  help: write PATH=VALUE, {write}"),
-    );
-    assert_fault(
-        "spin",
-        &format!("--set #2:1:1: `spin` gives no value\n  help: write PATH=VALUE, {write}"),
-    );
+    assert_fault("", &format!("--set #2:1:1: this override is empty\n  help: write PATH=VALUE, {write}"));
+    assert_fault("spin", &format!("--set #2:1:1: `spin` gives no value\n  help: write PATH=VALUE, {write}"));
     assert_fault(
         "spacetime.spin= ",
         &format!(
@@ -166,10 +132,7 @@ fn wrong_values() {
         "screen.look_at=[0, 0",
         "--set #2:1:16: this list is never closed\n  help: close it with `]`",
     );
-    assert_fault(
-        "sky.kind=\"black",
-        "--set #2:1:16: this text is never closed\n  help: end it with `\"`",
-    );
+    assert_fault("sky.kind=\"black", "--set #2:1:16: this text is never closed\n  help: end it with `\"`");
     assert_fault(
         "render.seed=1\nrender.height=2",
         "--set #2:1:14: a control character in an override\n  \
@@ -194,9 +157,6 @@ fn wrong_values() {
 #[test]
 fn several_are_told_in_their_order() {
     let faults = load(&["render.width=0", "a=1", "=", "render.height=0"]).unwrap_err();
-    let names: Vec<&str> = faults
-        .iter()
-        .map(|fault| fault.source.name.as_str())
-        .collect();
+    let names: Vec<&str> = faults.iter().map(|fault| fault.source.name.as_str()).collect();
     assert_eq!(names, ["--set #1", "--set #2", "--set #3", "--set #4"]);
 }

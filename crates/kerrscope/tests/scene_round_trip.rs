@@ -2,22 +2,20 @@
 
 use std::path::Path;
 
+use kerrscope::disk::Mapping;
+use kerrscope::display::Tone;
 use kerrscope::scene::file::{
-    Camera, Disk, DiskModel, Display, Inner, Isco, Motion, MotionName, Observer, RelativeTo,
-    Render, Screen, ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
+    Camera, Disk, DiskModel, Display, Inner, Isco, Motion, MotionName, Observer, RelativeTo, Render, Screen,
+    ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
 };
-use kerrscope::scene::{Engine, Mapping, Method, Scene, SceneFile, Tone};
+use kerrscope::scene::{Engine, Method, Scene, SceneFile};
 use proptest::prelude::*;
 use proptest::{option, sample};
 
 /// A number of a range, or one of its ends, or a whole one.
 fn number(min: f64, max: f64) -> impl Strategy<Value = f64> {
     let near = move |x: f64| {
-        if x.round() < min {
-            x
-        } else {
-            x.round().min(max)
-        }
+        if x.round() < min { x } else { x.round().min(max) }
     };
     prop_oneof![6 => min..max, 1 => Just(max), 2 => (min..max).prop_map(near)]
 }
@@ -28,34 +26,18 @@ fn vector(min: f64, max: f64) -> impl Strategy<Value = [f64; 3]> {
 
 fn spacetimes() -> impl Strategy<Value = Spacetime> {
     prop_oneof![
-        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime {
-            name: SpacetimeName::Kerr,
-            spin
-        }),
-        option::of(Just(0.0)).prop_map(|spin| Spacetime {
-            name: SpacetimeName::Schwarzschild,
-            spin
-        }),
-        option::of(Just(0.0)).prop_map(|spin| Spacetime {
-            name: SpacetimeName::Minkowski,
-            spin
-        }),
+        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Kerr, spin }),
+        option::of(Just(0.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Schwarzschild, spin }),
+        option::of(Just(0.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Minkowski, spin }),
     ]
 }
 
 fn motions() -> impl Strategy<Value = Motion> {
     prop_oneof![
-        sample::select(vec![MotionName::Static, MotionName::Zamo, MotionName::Fall])
-            .prop_map(Motion::Named),
+        sample::select(vec![MotionName::Static, MotionName::Zamo, MotionName::Fall]).prop_map(Motion::Named),
         vector(-0.57, 0.57).prop_map(Motion::Velocity),
-        (
-            vector(-0.57, 0.57),
-            sample::select(vec![RelativeTo::Zamo, RelativeTo::Fall])
-        )
-            .prop_map(|(velocity, relative_to)| Motion::Relative(Velocity {
-                velocity,
-                relative_to
-            })),
+        (vector(-0.57, 0.57), sample::select(vec![RelativeTo::Zamo, RelativeTo::Fall]))
+            .prop_map(|(velocity, relative_to)| Motion::Relative(Velocity { velocity, relative_to })),
     ]
 }
 
@@ -63,23 +45,14 @@ fn motions() -> impl Strategy<Value = Motion> {
 fn observers() -> impl Strategy<Value = (Observer, Screen)> {
     let screens = || {
         (
-            sample::select(vec![
-                ScreenKind::Pinhole,
-                ScreenKind::Angular,
-                ScreenKind::Impact,
-            ]),
+            sample::select(vec![ScreenKind::Pinhole, ScreenKind::Angular, ScreenKind::Impact]),
             option::of(number(1e-6, 179.0)),
             number(-1e6, 1e6),
             option::of(vector(-2.0, 2.0)),
         )
             .prop_map(|(kind, field_of_view, roll, look_at)| {
                 let look_at = look_at.filter(|_| kind != ScreenKind::Impact);
-                Screen {
-                    kind,
-                    field_of_view,
-                    roll,
-                    look_at,
-                }
+                Screen { kind, field_of_view, roll, look_at }
             })
     };
     let polar = (
@@ -97,97 +70,38 @@ fn observers() -> impl Strategy<Value = (Observer, Screen)> {
         });
     let cartesian = (vector(-1e15, 1e15), motions()).prop_map(|(mut position, motion)| {
         position[2] = position[2].abs().max(9.0);
-        Observer {
-            position: Some(position),
-            motion,
-            ..Observer::default()
-        }
+        Observer { position: Some(position), motion, ..Observer::default() }
     });
     let far = option::of(number(0.0, 180.0)).prop_map(|inclination| {
-        let observer = Observer {
-            distance: Some(f64::INFINITY),
-            inclination,
-            ..Observer::default()
-        };
-        (
-            observer,
-            Screen {
-                kind: ScreenKind::Impact,
-                ..Screen::default()
-            },
-        )
+        let observer = Observer { distance: Some(f64::INFINITY), inclination, ..Observer::default() };
+        (observer, Screen { kind: ScreenKind::Impact, ..Screen::default() })
     });
     prop_oneof![4 => (polar, screens()), 4 => (cartesian, screens()), 1 => far]
 }
 
 fn disks() -> impl Strategy<Value = Disk> {
-    let numbers = (
-        number(10.0, 1e15),
-        number(0.0, 180.0),
-        number(-1e6, 1e6),
-        number(0.0, 1e12),
-        number(0.0, 1.0),
-    );
-    let inner = prop_oneof![
-        Just(Inner::Isco(Isco::Isco)),
-        number(2.1, 9.5).prop_map(Inner::Radius),
-    ];
+    let numbers =
+        (number(10.0, 1e15), number(0.0, 180.0), number(-1e6, 1e6), number(0.0, 1e12), number(0.0, 1.0));
+    let inner = prop_oneof![Just(Inner::Isco(Isco::Isco)), number(2.1, 9.5).prop_map(Inner::Radius),];
     let mapping = option::of(sample::select(vec![Mapping::Around, Mapping::Flat]));
     let models = sample::select(vec![DiskModel::Ring, DiskModel::Image, DiskModel::None]);
-    (
-        numbers,
-        inner,
-        models,
-        option::of(vector(0.0, 1.0)),
-        0..=i64::MAX as u64,
-        mapping,
+    (numbers, inner, models, vector(0.0, 1.0), 0..=i64::MAX as u64, mapping).prop_map(
+        |((outer, tilt, node, brightness, opacity), inner, model, color, seed, mapping)| {
+            let image = (model == DiskModel::Image).then(|| "Cargo.toml".to_owned());
+            let mapping = mapping.filter(|_| model == DiskModel::Image);
+            Disk { model, inner, outer, tilt, node, color, brightness, opacity, seed, image, mapping }
+        },
     )
-        .prop_map(
-            |((outer, tilt, node, brightness, opacity), inner, model, color, seed, mapping)| {
-                let image = (model == DiskModel::Image).then(|| "Cargo.toml".to_owned());
-                let mapping = mapping.filter(|_| model == DiskModel::Image);
-                Disk {
-                    model,
-                    inner,
-                    outer,
-                    tilt,
-                    node,
-                    color,
-                    brightness,
-                    opacity,
-                    seed,
-                    image,
-                    mapping,
-                }
-            },
-        )
 }
 
 fn skies() -> impl Strategy<Value = Sky> {
-    let kinds = vec![
-        SkyKind::Black,
-        SkyKind::Uniform,
-        SkyKind::Grid,
-        SkyKind::Panorama,
-    ];
-    (
-        sample::select(kinds),
-        vector(0.0, 1.0),
-        number(0.0, 1e12),
-        1..=900_u32,
-        number(-1e6, 1e6),
-    )
-        .prop_map(|(kind, color, brightness, lines, longitude)| {
+    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Panorama];
+    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=900_u32, number(-1e6, 1e6)).prop_map(
+        |(kind, color, brightness, lines, longitude)| {
             let image = (kind == SkyKind::Panorama).then(|| "src/../Cargo.toml".to_owned());
-            Sky {
-                kind,
-                color,
-                brightness,
-                spacing: 90.0 / f64::from(lines),
-                image,
-                longitude,
-            }
-        })
+            Sky { kind, color, brightness, spacing: 90.0 / f64::from(lines), image, longitude }
+        },
+    )
 }
 
 fn renders() -> impl Strategy<Value = Render> {
@@ -201,63 +115,36 @@ fn renders() -> impl Strategy<Value = Render> {
         option::of(number(1e-9, 1e3)),
         (1..=1_000_000_u32, 1..=64_u32),
     )
-        .prop_map(
-            |(size, seed, jitter, engine, method, tolerance, step, most)| Render {
-                width: size.0,
-                height: size.1,
-                samples: size.2,
-                seed,
-                jitter,
-                engine,
-                method,
-                tolerance: tolerance.clamp(1e-14, 1e-2),
-                step: step.filter(|_| method == Method::Rk4),
-                max_steps: most.0,
-                max_crossings: most.1,
-            },
-        )
+        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most)| Render {
+            width: size.0,
+            height: size.1,
+            samples: size.2,
+            seed,
+            jitter,
+            engine,
+            method,
+            tolerance: tolerance.clamp(1e-14, 1e-2),
+            step: step.filter(|_| method == Method::Rk4),
+            max_steps: most.0,
+            max_crossings: most.1,
+        })
 }
 
 fn cameras() -> impl Strategy<Value = Camera> {
     let tones = sample::select(vec![Tone::Neutral, Tone::None]);
-    (number(-30.0, 30.0), tones, sample::select(vec![8, 16])).prop_map(|(exposure, tone, bits)| {
-        Camera {
-            display: Display {
-                exposure,
-                tone,
-                bits,
-            },
-        }
-    })
+    (number(-30.0, 30.0), tones, sample::select(vec![8, 16]))
+        .prop_map(|(exposure, tone, bits)| Camera { display: Display { exposure, tone, bits } })
 }
 
 fn scene_files() -> impl Strategy<Value = SceneFile> {
-    (
-        spacetimes(),
-        observers(),
-        disks(),
-        skies(),
-        renders(),
-        cameras(),
+    (spacetimes(), observers(), disks(), skies(), renders(), cameras()).prop_map(
+        |(spacetime, (observer, screen), mut disk, sky, render, camera)| {
+            if spacetime.name == SpacetimeName::Minkowski && disk.inner == Inner::Isco(Isco::Isco) {
+                disk.inner = Inner::Radius(3.0);
+            }
+            SceneFile { spacetime, observer, screen, disk, sky, render, camera }
+        },
     )
-        .prop_map(
-            |(spacetime, (observer, screen), mut disk, sky, render, camera)| {
-                if spacetime.name == SpacetimeName::Minkowski
-                    && disk.inner == Inner::Isco(Isco::Isco)
-                {
-                    disk.inner = Inner::Radius(3.0);
-                }
-                SceneFile {
-                    spacetime,
-                    observer,
-                    screen,
-                    disk,
-                    sky,
-                    render,
-                    camera,
-                }
-            },
-        )
 }
 
 proptest! {

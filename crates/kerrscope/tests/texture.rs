@@ -12,8 +12,7 @@ use proptest::prelude::*;
 fn png(width: u32, height: u32, color: ExtendedColorType, bytes: &[u8]) -> Vec<u8> {
     let mut file = Vec::new();
     let mut to = Cursor::new(&mut file);
-    image::write_buffer_with_format(&mut to, bytes, width, height, color, ImageFormat::Png)
-        .unwrap();
+    image::write_buffer_with_format(&mut to, bytes, width, height, color, ImageFormat::Png).unwrap();
     file
 }
 
@@ -23,13 +22,10 @@ fn texture(width: u32, height: u32, color: ExtendedColorType, bytes: &[u8]) -> T
 
 /// A 16×8 picture with all kinds of values, as a JPEG.
 fn jpeg(format: fn(image::RgbImage) -> DynamicImage) -> Vec<u8> {
-    let image = image::RgbImage::from_fn(16, 8, |x, y| {
-        image::Rgb([16 * x as u8, 32 * y as u8, 200 - 8 * x as u8])
-    });
+    let image =
+        image::RgbImage::from_fn(16, 8, |x, y| image::Rgb([16 * x as u8, 32 * y as u8, 200 - 8 * x as u8]));
     let mut file = Vec::new();
-    format(image)
-        .write_to(&mut Cursor::new(&mut file), ImageFormat::Jpeg)
-        .unwrap();
+    format(image).write_to(&mut Cursor::new(&mut file), ImageFormat::Jpeg).unwrap();
     file
 }
 
@@ -57,10 +53,7 @@ fn all_kinds_of_png_are_read() {
     let linear = |x: f64| srgb::decode(x);
     let half = 128.0 / 255.0;
     let wide = |codes: &[u8]| -> Vec<u8> {
-        codes
-            .iter()
-            .flat_map(|&c| (u16::from(c) * 257).to_ne_bytes())
-            .collect()
+        codes.iter().flat_map(|&c| (u16::from(c) * 257).to_ne_bytes()).collect()
     };
     let cases: [(_, _, &[u8], [f64; 3], f64); 4] = [
         (L8, L16, &[51], [0.2, 0.2, 0.2], 1.0),
@@ -69,10 +62,7 @@ fn all_kinds_of_png_are_read() {
         (Rgba8, Rgba16, &[51, 102, 204, 128], [0.2, 0.4, 0.8], half),
     ];
     for (narrow_color, wide_color, codes, rgb, alpha) in cases {
-        for texture in [
-            texture(1, 1, narrow_color, codes),
-            texture(1, 1, wide_color, &wide(codes)),
-        ] {
+        for texture in [texture(1, 1, narrow_color, codes), texture(1, 1, wide_color, &wide(codes))] {
             let sheet = texture.sample(0.5, 0.5, false);
             for (got, x) in sheet.light.rgb.into_iter().zip(rgb) {
                 assert!(close(got, linear(x) * alpha), "{narrow_color:?} {got}");
@@ -87,10 +77,7 @@ fn sixteen_bits_are_kept() {
     // Two neighbouring dark codes, which 8 bits, and linear 16 bits, would merge.
     let codes: Vec<u8> = [20_u16, 21].iter().flat_map(|c| c.to_ne_bytes()).collect();
     let texture = texture(2, 1, ExtendedColorType::L16, &codes);
-    let (a, b) = (
-        texture.sample(0.25, 0.5, false),
-        texture.sample(0.75, 0.5, false),
-    );
+    let (a, b) = (texture.sample(0.25, 0.5, false), texture.sample(0.75, 0.5, false));
     let ratio = b.light.rgb[0] / a.light.rgb[0];
     assert!((ratio - 1.05).abs() < 1e-6, "{ratio}");
 }
@@ -137,10 +124,7 @@ fn over_a_pole_a_sphere_goes_on_half_a_turn_further() {
     let texture = texture(3, 2, ExtendedColorType::L8, &[255, 0, 0, 0, 0, 255]);
     for u in [0.0, 0.13, 0.5, 0.77] {
         for v in [0.0, 1.0] {
-            let (here, there) = (
-                texture.sample_sphere(u, v),
-                texture.sample_sphere(u + 0.5, v),
-            );
+            let (here, there) = (texture.sample_sphere(u, v), texture.sample_sphere(u + 0.5, v));
             assert!(close(here.light.rgb[0], there.light.rgb[0]), "{u} {v}");
         }
     }
@@ -208,24 +192,16 @@ fn an_error_names_the_file_what_is_wrong_and_the_mend() {
         }
     };
     has(message(b""), &["empty", "again"]);
-    has(
-        message(b"hello, this is text"),
-        &["not a PNG or JPEG", "convert"],
-    );
+    has(message(b"hello, this is text"), &["not a PNG or JPEG", "convert"]);
     has(message(b"RIFF\x10\0\0\0WEBPVP8 0123"), &["WEBP", "convert"]);
     let whole = png(64, 64, ExtendedColorType::L8, &[7; 4096]);
-    has(
-        message(&whole[..whole.len() / 2]),
-        &["ends before", "again"],
-    );
+    has(message(&whole[..whole.len() / 2]), &["ends before", "again"]);
     let mut damaged = whole;
     let middle = damaged.len() / 2;
     damaged[middle] ^= 0x55;
     has(message(&damaged), &["damaged", "again"]);
 
-    let missing = Texture::load(folder.path().join("none.png"))
-        .unwrap_err()
-        .to_string();
+    let missing = Texture::load(folder.path().join("none.png")).unwrap_err().to_string();
     has(missing, &["none.png", "check the path"]);
     let error = Texture::load(folder.path()).unwrap_err().to_string();
     has(error, &["give a file"]);
@@ -243,26 +219,14 @@ fn a_picture_that_claims_to_be_huge_is_refused_before_memory_is_taken() {
     file.truncate(file.len() - 12);
     file.extend_from_slice(b"\0\0\x10\0IDAT");
     let fault = Texture::decode(&file).unwrap_err();
-    assert!(
-        matches!(
-            fault,
-            TextureFault::TooLarge {
-                width: 60000,
-                height: 60000
-            }
-        ),
-        "{fault}"
-    );
+    assert!(matches!(fault, TextureFault::TooLarge { width: 60000, height: 60000 }), "{fault}");
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn a_device_without_end_is_refused_at_its_beginning() {
     let error = Texture::load("/dev/zero").unwrap_err();
-    assert!(
-        matches!(error.fault, TextureFault::Foreign(None)),
-        "{error}"
-    );
+    assert!(matches!(error.fault, TextureFault::Foreign(None)), "{error}");
 }
 
 proptest! {

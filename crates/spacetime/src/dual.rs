@@ -93,6 +93,8 @@ impl<S: Scalar, const N: usize> Mul for Dual<S, N> {
 impl<S: Scalar, const N: usize> Div for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
+    // The quotient rule: (a/b)′ = (a′ − (a/b) b′)/b.
+    #[expect(clippy::suspicious_arithmetic_impl)]
     fn div(self, other: Self) -> Self {
         let inverse = other.value.recip();
         let value = self.value * inverse;

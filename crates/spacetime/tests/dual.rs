@@ -69,12 +69,18 @@ fn second_derivatives() {
         for (i, e1) in axes.iter().enumerate() {
             for (k, e2) in axes.iter().enumerate() {
                 let their = along(*e1, *e2);
-                worst.see((our.gradient[i].gradient[k] - their.eps1eps2).abs() / size, || format!("∂{i}∂{k} at ({x}, {y})"));
-                worst.see((our.gradient[i].value - their.eps1).abs() / size, || format!("∂{i} at ({x}, {y})"));
-                worst.see((our.value.gradient[k] - their.eps2).abs() / size, || format!("∂{k} at ({x}, {y})"));
+                worst.see((our.gradient[i].gradient[k] - their.eps1eps2).abs() / size, || {
+                    format!("∂{i}∂{k} at ({x}, {y})")
+                });
+                worst
+                    .see((our.gradient[i].value - their.eps1).abs() / size, || format!("∂{i} at ({x}, {y})"));
+                worst
+                    .see((our.value.gradient[k] - their.eps2).abs() / size, || format!("∂{k} at ({x}, {y})"));
             }
         }
-        symmetry.see((our.gradient[0].gradient[1] - our.gradient[1].gradient[0]).abs() / size, || format!("({x}, {y})"));
+        symmetry.see((our.gradient[0].gradient[1] - our.gradient[1].gradient[0]).abs() / size, || {
+            format!("({x}, {y})")
+        });
     }
     worst.below(2e-14, "second derivatives");
     symmetry.below(2e-14, "symmetry");

@@ -4,7 +4,7 @@
 mod common;
 
 use common::mino::{Photon, travel};
-use common::{DEGREE, Random, Worst, distance, folded, follow, impact, largest, separation};
+use common::{DEGREE, Random, Worst, distance, folded, follow, impact, separation};
 use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme};
 use kerrscope_spacetime::kerr::horizons;
 use kerrscope_spacetime::metric::{Inverted, Kerr, Metric};
@@ -24,6 +24,8 @@ fn timed() -> Query {
 
 /// First crossings of sixty rays by kerrz 0.4.1 (closed form), the observer at r = 1000. The file
 /// lies beside the workspace where the project is developed, and is not part of it.
+// The test reads a file, not the crate.
+#[allow(clippy::disallowed_methods)]
 #[test]
 fn another_code() {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/reference/equatorial_crossings.json");
@@ -82,16 +84,26 @@ fn closed_form_from_infinity() {
 
 /// What the integrator and the separated equations differ by, weighted by how much the ray
 /// magnifies errors.
-fn compare(spin: f64, ray: &Ray, path: &Path, photon: Photon, from: [f64; 2], signs: [bool; 2], worst: &mut Worst) {
+fn compare(
+    spin: f64,
+    ray: &Ray,
+    path: &Path,
+    photon: Photon,
+    from: [f64; 2],
+    signs: [bool; 2],
+    worst: &mut Worst,
+) {
     let trip = travel(photon, from[0], from[1], signs[0], if signs[1] { 1.0 } else { -1.0 });
     let share = 1.0 / Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
+    // sin θ of the closest approach to the axis, where φ is steep, is about this.
+    let aside = photon.lambda.abs() / photon.lambda.hypot(photon.eta.max(0.0).sqrt());
     let place = || format!("{photon:?} from {from:?} {signs:?}");
     assert_ne!(path.fate, Fate::StepLimit);
     assert_eq!(path.fate == Fate::Escaped, trip.direction.is_some(), "{}", place());
     if let (Some([theta, phi]), Some([theta_other, phi_other])) = (path.direction, trip.direction) {
         let sin = theta.sin();
         worst.see((theta - theta_other).abs() * share * sin.max(1e-3), || format!("θ, {}", place()));
-        worst.see((phi - phi_other).abs() * share * sin, || format!("φ, {}", place()));
+        worst.see((phi - phi_other).abs() * share * sin * aside, || format!("φ, {}", place()));
     }
     // Light that winds up at the horizon does so without end in Boyer–Lindquist coordinates.
     let horizon = horizons(spin).0 + 1e-2;
@@ -103,8 +115,8 @@ fn compare(spin: f64, ray: &Ray, path: &Path, photon: Photon, from: [f64; 2], si
         // Far crossings are found as 1/r.
         let near = share / (1.0 + our.r * from[0].max(1e-2));
         worst.see((our.r / their[0] - 1.0).abs() * near, || format!("r, {}", place()));
-        worst.see((our.phi - their[1]).abs() * near, || format!("azimuth, {}", place()));
-        if photon.timed {
+        worst.see((our.phi - their[1]).abs() * near * aside, || format!("azimuth, {}", place()));
+        if photon.timed && our.r < 900.0 {
             let size = 1.0 / from[0] + our.r;
             worst.see((our.elapsed - their[2]).abs() / size * near, || format!("time, {}", place()));
         }
@@ -132,7 +144,7 @@ fn separated_equations_from_infinity() {
         let photon = Photon { spin: -spin, lambda, eta, timed: false };
         compare(spin, &ray, &path, photon, [0.0, cos], [true, beta > 0.0], &mut worst);
     }
-    worst.below(1e-10, "from infinity");
+    worst.below(5e-12, "from infinity");
 }
 
 /// Static cameras and their whole sky, close to the hole too, with elapsed times.
@@ -153,9 +165,17 @@ fn separated_equations_from_cameras() {
             continue;
         }
         let path = follow(&integrator(spin), &ray, &timed());
-        compare(spin, &ray, &path, photon, [1.0 / place.r, place.theta.cos()], [out < 0.0, down < 0.0], &mut worst);
+        compare(
+            spin,
+            &ray,
+            &path,
+            photon,
+            [1.0 / place.r, place.theta.cos()],
+            [out < 0.0, down < 0.0],
+            &mut worst,
+        );
     }
-    worst.below(1e-10, "from cameras");
+    worst.below(5e-12, "from cameras");
 }
 
 /// A principal null ray, λ = a sin²θ, keeps θ and φ̃ and has t̃ + r constant: everything about it
@@ -182,7 +202,8 @@ fn principal_null_rays() {
                 let ray = impact(spin, inclination, camera, -spin * inclination.sin(), 0.0);
                 let whole = if camera.is_infinite() { 0.0 } else { twist(camera) };
                 // In the chart the place turns by atan(−a/r) as it falls.
-                let span = (-spin / outer).atan() - if camera.is_infinite() { 0.0 } else { (-spin / camera).atan() };
+                let span =
+                    (-spin / outer).atan() - if camera.is_infinite() { 0.0 } else { (-spin / camera).atan() };
                 let first = if camera.is_infinite() { 0.0 } else { (-spin).atan2(camera) };
                 for share in [0.05, 0.3, 0.8, 0.999] {
                     let psi = first + whole + share * span;
@@ -193,7 +214,8 @@ fn principal_null_rays() {
                     let c = path.crossings[0];
                     let r = -spin / (first + share * span).tan();
                     worst.see((c.r / r - 1.0).abs(), || format!("r, {}", place()));
-                    worst.see((c.position[2] - r * inclination.cos()).abs() / r, || format!("θ, {}", place()));
+                    worst
+                        .see((c.position[2] - r * inclination.cos()).abs() / r, || format!("θ, {}", place()));
                     // Judged where the crossing was found: near the horizon φ and t are steep.
                     worst.see((c.phi - (whole - twist(c.r))).abs(), || format!("φ, {}", place()));
                     let elapsed = if camera.is_infinite() {
@@ -207,7 +229,7 @@ fn principal_null_rays() {
             }
         }
     }
-    worst.below(1e-10, "principal null rays");
+    worst.below(2e-13, "principal null rays");
 }
 
 /// Radial rays at a = 0 meet no plane, but their points have t̃ = r − r₀ on the way in and
@@ -219,7 +241,8 @@ fn radial_rays() {
         let place = Place { r: r0, theta: 1.2, phi: 0.5 };
         let observer = Observer::new(Some(0.0), place, Motion::Static).unwrap();
         for sign in [-1.0, 1.0] {
-            let path = follow(&integrator(0.0), &observer.ray([sign, 0.0, 0.0]), &Query { points: 60, ..timed() });
+            let path =
+                follow(&integrator(0.0), &observer.ray([sign, 0.0, 0.0]), &Query { points: 60, ..timed() });
             assert_eq!(path.fate, if sign < 0.0 { Fate::Captured } else { Fate::Escaped });
             assert!(path.crossings.is_empty());
             for [t, x, y, z] in path.points {
@@ -230,7 +253,7 @@ fn radial_rays() {
             }
         }
     }
-    worst.below(1e-12, "radial rays");
+    worst.below(2e-13, "radial rays");
 }
 
 /// The elapsed time from ever further cameras, less r + 2 ln(r/2), tends to that from infinity.
@@ -262,11 +285,13 @@ fn elapsed_time_from_far_away() {
                     row = row.windows(2).map(|pair| (factor * pair[1] - pair[0]) / (factor - 1.0)).collect();
                 }
                 let size = if i == 1 { 1.0 } else { exact[0] };
-                worst.see((row[0] - exact[i]).abs() / size, || format!("a = {spin}, i = {inclination}, {b}, {turn}, {i}"));
+                worst.see((row[0] - exact[i]).abs() / size, || {
+                    format!("a = {spin}, i = {inclination}, {b}, {turn}, {i}")
+                });
             }
         }
     }
-    worst.below(1e-8, "elapsed time from infinity");
+    worst.below(3e-9, "elapsed time from infinity");
 }
 
 /// A ray traced out to infinity, and light sent in from there with the direction and the
@@ -291,7 +316,8 @@ fn there_and_back() {
             continue;
         }
         // The camera in the chart of the returning ray, its azimuth counted from the sender's.
-        let camera = Observer::new(Some(-spin), Place { phi: -phi, ..place }, Motion::Static).unwrap().position();
+        let camera =
+            Observer::new(Some(-spin), Place { phi: -phi, ..place }, Motion::Static).unwrap().position();
         // The photon comes back as it went: of the two β one is right.
         let errors = [1.0, -1.0].map(|sign| {
             let back = impact(-spin, theta, f64::INFINITY, alpha, sign * square.sqrt());
@@ -306,7 +332,7 @@ fn there_and_back() {
         worst.see(errors[0].min(errors[1]) * share, || format!("a = {spin}, {place:?}, {ray:?}"));
     }
     assert!(worst.count > 200);
-    worst.below(1e-9, "there and back");
+    worst.below(5e-12, "there and back");
 }
 
 /// Three methods in two charts with three sets of coefficients find the same.
@@ -321,10 +347,9 @@ fn methods_agree() {
         let run = |scheme| follow(&Integrator::new(Kerr::new(spin), scheme, 200_000), &ray, &timed());
         let best = run(Scheme::Dop853 { tolerance: 1e-13 });
         let share = 1.0 / Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
-        for (scheme, worst) in [
-            (Scheme::Tsit5 { tolerance: 1e-11 }, &mut tsit5),
-            (Scheme::Rk4 { step: 0.01 }, &mut rk4),
-        ] {
+        for (scheme, worst) in
+            [(Scheme::Tsit5 { tolerance: 1e-11 }, &mut tsit5), (Scheme::Rk4 { step: 0.01 }, &mut rk4)]
+        {
             let path = run(scheme);
             let label = || format!("{scheme:?}, a = {spin}, {place:?}, {ray:?}");
             assert_eq!(path.fate, best.fate, "{}", label());
@@ -341,13 +366,15 @@ fn methods_agree() {
                 let near = share / b.r.max(1.0);
                 worst.see((a.r - b.r).abs() / size * near, || format!("r, {}", label()));
                 worst.see((a.phi - b.phi).abs() * near, || format!("φ, {}", label()));
-                worst.see((a.elapsed - b.elapsed).abs() / size * near, || format!("t {} at r = {}, {}", b.elapsed, b.r, label()));
+                worst.see((a.elapsed - b.elapsed).abs() / size * near, || {
+                    format!("t {} at r = {}, {}", b.elapsed, b.r, label())
+                });
                 worst.see(distance(a.position, b.position) * share / size / b.r, label);
             }
         }
     }
-    tsit5.below(1e-10, "Tsitouras's method");
-    rk4.below(1e-9, "Runge and Kutta's method");
+    tsit5.below(3e-12, "Tsitouras's method");
+    rk4.below(5e-10, "Runge and Kutta's method");
 }
 
 /// The points of a ray are events on a null geodesic: by differences their tangent is null and
@@ -361,11 +388,21 @@ fn points_are_on_a_null_geodesic() {
         let spin = random.pick(&SPINS);
         let place = Place { r: random.scale(3.0, 50.0), theta: random.within(0.3, 2.8), phi: 1.0 };
         let ray = Observer::new(Some(spin), place, Motion::Static).unwrap().ray(random.direction());
-        let scheme = if i % 3 == 0 { Scheme::Rk4 { step: 0.02 } } else { Scheme::Dop853 { tolerance: 1e-14 } };
-        let path = follow(&Integrator::new(Kerr::new(spin), scheme, 100_000), &ray, &Query { points: 600, ..timed() });
+        let scheme =
+            if i % 3 == 0 { Scheme::Rk4 { step: 0.02 } } else { Scheme::Dop853 { tolerance: 1e-14 } };
+        let path = follow(
+            &Integrator::new(Kerr::new(spin), scheme, 100_000),
+            &ray,
+            &Query { points: 600, ..timed() },
+        );
         assert_eq!(path.points.len(), 600);
         let kerr = Kerr::new(-spin);
-        assert!(distance([path.points[0][1], path.points[0][2], path.points[0][3]], ray.start.n.map(|c| c / ray.start.w)) < 1e-12 * place.r);
+        assert!(
+            distance(
+                [path.points[0][1], path.points[0][2], path.points[0][3]],
+                ray.start.n.map(|c| c / ray.start.w)
+            ) < 1e-12 * place.r
+        );
         assert!(path.points[0][0].abs() < 1e-11);
         for k in (3..597).step_by(11) {
             let at = path.points[k];
@@ -388,9 +425,11 @@ fn points_are_on_a_null_geodesic() {
             let size = 1.0 + conserved.lambda * conserved.lambda + conserved.eta.abs();
             worst.see(kerr.norm(1.0, &state).abs() / (1.0 + dot(&p, &p)), || format!("null, {}", label()));
             worst.see((state.j[2] + conserved.lambda).abs() / size.sqrt(), || format!("λ, {}", label()));
-            worst.see((kerr.carter(1.0, &state).unwrap() - conserved.eta).abs() / size, || format!("η, {}", label()));
+            worst.see((kerr.carter(1.0, &state).unwrap() - conserved.eta).abs() / size, || {
+                format!("η, {}", label())
+            });
         }
     }
-    both[0].below(1e-7, "tangents");
-    both[1].below(1e-5, "tangents of Runge and Kutta's");
+    both[0].below(3e-8, "tangents");
+    both[1].below(5e-6, "tangents of Runge and Kutta's");
 }

@@ -5,7 +5,9 @@ mod common;
 use common::{Random, Worst, largest};
 use fearless_simd::{Level, Simd, dispatch};
 use kerrscope_spacetime::geodesic::{Dop853, Flow, InvertedFlow, Method, Tsit5};
-use kerrscope_spacetime::metric::{Inverted, Kerr, Metric, Schwarzschild, inverted_from_rate, rate_from_components};
+use kerrscope_spacetime::metric::{
+    Inverted, Kerr, Metric, Schwarzschild, inverted_from_rate, rate_from_components,
+};
 use kerrscope_spacetime::tensor::{cross, dot};
 use kerrscope_spacetime::{Dual, Lanes, Scalar};
 
@@ -123,7 +125,10 @@ fn a_bad_lane_stays_alone() {
 }
 
 /// Eight photons, as eight states and as one state of lanes.
-fn photons<L: Simd>(random: &mut Random, simd: L) -> ([f64; 8], [Inverted<f64>; 8], Lanes<L>, Inverted<Lanes<L>>) {
+fn photons<L: Simd>(
+    random: &mut Random,
+    simd: L,
+) -> ([f64; 8], [Inverted<f64>; 8], Lanes<L>, Inverted<Lanes<L>>) {
     let energies: [f64; 8] = std::array::from_fn(|_| random.within(-2.0, 2.0));
     let states: [Inverted<f64>; 8] = std::array::from_fn(|k| {
         let n = random.direction();
@@ -150,9 +155,9 @@ fn size(energy: f64, state: &Inverted<f64>) -> f64 {
 }
 
 fn difference<L: Simd>(lanes: &Inverted<Lanes<L>>, k: usize, one: &Inverted<f64>) -> f64 {
-    largest([(lanes.w.lane(k) - one.w).abs(), (lanes.q.lane(k) - one.q).abs()].into_iter().chain((0..3).flat_map(
-        |i| [(lanes.n[i].lane(k) - one.n[i]).abs(), (lanes.j[i].lane(k) - one.j[i]).abs()],
-    )))
+    largest([(lanes.w.lane(k) - one.w).abs(), (lanes.q.lane(k) - one.q).abs()].into_iter().chain(
+        (0..3).flat_map(|i| [(lanes.n[i].lane(k) - one.n[i]).abs(), (lanes.j[i].lane(k) - one.j[i]).abs()]),
+    ))
 }
 
 /// The equations of motion, by hand and by duals of lanes, for eight photons at once.
@@ -163,7 +168,8 @@ fn equations<L: Simd>(simd: L) {
     for _ in 0..300 {
         let kerr = Kerr::new(random.within(-1.0, 1.0));
         let (energies, states, energy, state) = photons(&mut random, simd);
-        let (all, all_static) = (kerr.inverted_rate(energy, &state), Schwarzschild.inverted_rate(energy, &state));
+        let (all, all_static) =
+            (kerr.inverted_rate(energy, &state), Schwarzschild.inverted_rate(energy, &state));
         for k in 0..8 {
             let scale = size(energies[k], &states[k]);
             let place = || format!("{kerr:?}, {:?}", states[k]);
@@ -188,7 +194,10 @@ fn equations<L: Simd>(simd: L) {
                 dual.see((rate.force[i].lane(k) - one.force[i]).abs() / scale, place);
                 norms.see((kerr.radius(&x).lane(k) / kerr.radius(&one_x) - 1.0).abs(), place);
             }
-            hand.see(difference(&general, k, &inverted_from_rate(&kerr, energies[k], &one_state)) / scale * 0.1, place);
+            hand.see(
+                difference(&general, k, &inverted_from_rate(&kerr, energies[k], &one_state)) / scale * 0.1,
+                place,
+            );
         }
     }
     hand.below(4e-15, "equations by hand");
@@ -209,7 +218,8 @@ fn equations_are_those_of_each_photon() {
 fn derivatives<L: Simd>(simd: L) {
     fn f<S: Scalar>(x: S, y: S) -> S {
         let (sin, cos) = (x * y).sin_cos();
-        (sin.exp() / (x.squared() + 1.0) - y.atan2(x) * cos).max(x.min(y).abs() * 0.01) + (x.abs() + 1.0).ln().sqrt()
+        (sin.exp() / (x.squared() + 1.0) - y.atan2(x) * cos).max(x.min(y).abs() * 0.01)
+            + (x.abs() + 1.0).ln().sqrt()
     }
     let mut random = Random::new(23);
     let mut worst = Worst::default();
@@ -224,7 +234,9 @@ fn derivatives<L: Simd>(simd: L) {
             worst.see((all.lane(k) - one.value).abs(), || format!("({}, {})", a[k], b[k]));
             for i in 0..2 {
                 let scale = one.gradient[i].abs().max(1.0);
-                worst.see((all.gradient[i].lane(k) - one.gradient[i]).abs() / scale, || format!("({}, {})", a[k], b[k]));
+                worst.see((all.gradient[i].lane(k) - one.gradient[i]).abs() / scale, || {
+                    format!("({}, {})", a[k], b[k])
+                });
             }
         }
     }
@@ -246,7 +258,8 @@ fn steps<L: Simd, M: Method<STAGES>, const STAGES: usize>(simd: L) {
     for _ in 0..100 {
         let metric = Kerr::new(random.within(-1.0, 1.0));
         let (energies, states, energy, state) = photons(&mut random, simd);
-        let sizes: [f64; 8] = std::array::from_fn(|k| random.within(0.01, 0.1) / size(energies[k], &states[k]).sqrt());
+        let sizes: [f64; 8] =
+            std::array::from_fn(|k| random.within(0.01, 0.1) / size(energies[k], &states[k]).sqrt());
         let (h, flow) = (Lanes::new(simd, sizes), InvertedFlow { metric, energy });
         let pack = |s: &Inverted<Lanes<L>>| [s.w, s.n[0], s.n[1], s.n[2], s.q, s.j[0], s.j[1], s.j[2]];
         let y = pack(&state);

@@ -60,7 +60,8 @@ fn run<M: Method<STAGES>, const STAGES: usize>(steps: u32) -> (f64, f64) {
 
 /// log₂ of the ratio of errors as the number of steps doubles, `most` steps in the finest run.
 fn orders<M: Method<STAGES>, const STAGES: usize>(most: u32) -> (f64, f64) {
-    let ((coarse, coarse_between), (fine, fine_between)) = (run::<M, STAGES>(most / 2), run::<M, STAGES>(most));
+    let ((coarse, coarse_between), (fine, fine_between)) =
+        (run::<M, STAGES>(most / 2), run::<M, STAGES>(most));
     println!("{}: {coarse:.2e} → {fine:.2e}; dense {coarse_between:.2e} → {fine_between:.2e}", M::NAME);
     ((coarse / fine).log2(), (coarse_between / fine_between).log2())
 }
@@ -105,7 +106,8 @@ fn quadrature<M: Method<STAGES>, const STAGES: usize>(k: i32) -> (f64, f64) {
     let step = M::step(&flow, &y, &flow.derivative(&y), 1.0);
     let dense = M::dense(&flow, &y, &step, &flow.derivative(&step.end), 1.0);
     let exact = |t: f64| t.powi(k + 1) / f64::from(k + 1);
-    let between = largest((0..=20).map(|i| (dense.at(f64::from(i) / 20.0)[0] - exact(f64::from(i) / 20.0)).abs()));
+    let between =
+        largest((0..=20).map(|i| (dense.at(f64::from(i) / 20.0)[0] - exact(f64::from(i) / 20.0)).abs()));
     ((step.end[0] - exact(1.0)).abs(), between)
 }
 
@@ -115,10 +117,20 @@ fn quadrature<M: Method<STAGES>, const STAGES: usize>(k: i32) -> (f64, f64) {
 fn polynomials() {
     fn check<M: Method<STAGES>, const STAGES: usize>(order: i32, dense_order: i32, rounding: f64) {
         for k in 0..order {
-            assert!(quadrature::<M, STAGES>(k).0 < rounding, "{} for t^{k}: {:e}", M::NAME, quadrature::<M, STAGES>(k).0);
+            assert!(
+                quadrature::<M, STAGES>(k).0 < rounding,
+                "{} for t^{k}: {:e}",
+                M::NAME,
+                quadrature::<M, STAGES>(k).0
+            );
         }
         for k in 0..dense_order {
-            assert!(quadrature::<M, STAGES>(k).1 < rounding, "{} between for t^{k}: {:e}", M::NAME, quadrature::<M, STAGES>(k).1);
+            assert!(
+                quadrature::<M, STAGES>(k).1 < rounding,
+                "{} between for t^{k}: {:e}",
+                M::NAME,
+                quadrature::<M, STAGES>(k).1
+            );
         }
         assert!(quadrature::<M, STAGES>(order).0 > 1e-6, "{}", M::NAME);
         assert!(quadrature::<M, STAGES>(dense_order).1 > 1e-6, "{}", M::NAME);
@@ -177,7 +189,9 @@ fn dense_output_meets_both_ends() {
         let (start, end) = (kepler(0.5), step.end);
         worst.see(apart(dense.at(0.0), start), || "start".into());
         worst.see(apart(dense.at(1.0), end), || "end".into());
-        for (theta, inward, slope) in [(0.0, 1.0, Kepler.derivative(&start)), (1.0, -1.0, Kepler.derivative(&end))] {
+        for (theta, inward, slope) in
+            [(0.0, 1.0, Kepler.derivative(&start)), (1.0, -1.0, Kepler.derivative(&end))]
+        {
             // One-sided differences of order four of a polynomial of degree seven at most.
             let d = 1e-3;
             let at = |k: f64| dense.at(theta + inward * k * d);

@@ -50,10 +50,7 @@ fn apart(a: &[f64], b: &[f64]) -> f64 {
 /// square over the distance squared for the force.
 fn difference(energy: f64, x: &Vec3<f64>, p: &Vec3<f64>, a: &Rate<f64>, b: &Rate<f64>) -> f64 {
     let size = norm(p) + energy.abs();
-    largest([
-        apart(&a.velocity, &b.velocity) / size,
-        apart(&a.force, &b.force) / (size * size) * dot(x, x),
-    ])
+    largest([apart(&a.velocity, &b.velocity) / size, apart(&a.force, &b.force) / (size * size) * dot(x, x)])
 }
 
 /// The same in the inverted chart.
@@ -74,10 +71,13 @@ fn inverted_difference(energy: f64, at: &Inverted<f64>, a: &Inverted<f64>, b: &I
 fn rate_is_that_of_the_components() {
     let mut random = Random::new(1);
     let (mut near, mut far) = (Worst::default(), Worst::default());
-    let mut check = |spin: f64, energy: f64, x: &Vec3<f64>, p: &Vec3<f64>, hand: Rate<f64>, dual: Rate<f64>| {
-        let which = if norm(x) < 3.0 { &mut near } else { &mut far };
-        which.see(difference(energy, x, p, &hand, &dual), || format!("a = {spin}, x = {x:?}, E = {energy}"));
-    };
+    let mut check =
+        |spin: f64, energy: f64, x: &Vec3<f64>, p: &Vec3<f64>, hand: Rate<f64>, dual: Rate<f64>| {
+            let which = if norm(x) < 3.0 { &mut near } else { &mut far };
+            which.see(difference(energy, x, p, &hand, &dual), || {
+                format!("a = {spin}, x = {x:?}, E = {energy}")
+            });
+        };
     for _ in 0..20_000 {
         let spin = any_spin(&mut random);
         let kerr = Kerr::new(spin);
@@ -102,12 +102,16 @@ fn inverted_rate_is_that_of_the_rate() {
         let (energy, x, p) = sample(&mut random, spin, 100.0);
         let state = inverted(&x, &p);
         let (hand, general) = (kerr.inverted_rate(energy, &state), inverted_from_rate(&kerr, energy, &state));
-        worst.see(inverted_difference(energy, &state, &hand, &general) * state.w.min(1.0), || format!("a = {spin}, E = {energy}, {state:?}"));
+        worst.see(inverted_difference(energy, &state, &hand, &general) * state.w.min(1.0), || {
+            format!("a = {spin}, E = {energy}, {state:?}")
+        });
         let (energy, x, p) = sample(&mut random, 0.0, 100.0);
         let state = inverted(&x, &p);
         let hand = Schwarzschild.inverted_rate(energy, &state);
         let general = inverted_from_rate(&Schwarzschild, energy, &state);
-        worst.see(inverted_difference(energy, &state, &hand, &general) * state.w.min(1.0), || format!("E = {energy}, {state:?}"));
+        worst.see(inverted_difference(energy, &state, &hand, &general) * state.w.min(1.0), || {
+            format!("E = {energy}, {state:?}")
+        });
     }
     worst.below(3e-14, "inverted rate times w");
 }
@@ -125,7 +129,10 @@ fn schwarzschild_is_kerr_without_spin() {
             state.w = 0.0;
         }
         let place = || format!("E = {energy}, {state:?}");
-        worst.see(difference(energy, &x, &p, &Schwarzschild.rate(energy, &x, &p), &kerr.rate(energy, &x, &p)), place);
+        worst.see(
+            difference(energy, &x, &p, &Schwarzschild.rate(energy, &x, &p), &kerr.rate(energy, &x, &p)),
+            place,
+        );
         let rates = (Schwarzschild.inverted_rate(energy, &state), kerr.inverted_rate(energy, &state));
         worst.see(inverted_difference(energy, &state, &rates.0, &rates.1), place);
         let size = (norm(&state.momentum()) + energy.abs()).powi(2);
@@ -135,7 +142,10 @@ fn schwarzschild_is_kerr_without_spin() {
         worst.see((carter.unwrap() - other.unwrap()).abs() / squared, place);
         worst.see((carter.unwrap() + state.j[2].powi(2) - squared).abs() / squared, place);
         worst.see((Schwarzschild.radius(&x) / kerr.radius(&x) - 1.0).abs(), place);
-        worst.see((Schwarzschild.inverse_radius(state.w, &state.n) - kerr.inverse_radius(state.w, &state.n)).abs(), place);
+        worst.see(
+            (Schwarzschild.inverse_radius(state.w, &state.n) - kerr.inverse_radius(state.w, &state.n)).abs(),
+            place,
+        );
         worst.see(
             largest((0..4).map(|i| apart(&Schwarzschild.components(&x)[i], &kerr.components(&x)[i]))),
             place,
@@ -149,7 +159,9 @@ fn schwarzschild_is_kerr_without_spin() {
         assert_eq!(Schwarzschild.azimuth_offset(r), 0.0);
         assert_eq!(kerr.azimuth_offset(r), 0.0);
         // K = 2 ln(r − 2).
-        assert!((kerr.time_offset(r) - 2.0 * (r - 2.0).ln()).abs() < 1e-14 * kerr.time_offset(r).abs().max(1.0));
+        assert!(
+            (kerr.time_offset(r) - 2.0 * (r - 2.0).ln()).abs() < 1e-14 * kerr.time_offset(r).abs().max(1.0)
+        );
     }
 }
 
@@ -192,7 +204,10 @@ fn determinant(m: &Tensor<f64>) -> f64 {
             for c in (0..4).filter(|c| *c != a && *c != b) {
                 let d = 6 - a - b - c;
                 let order = [a, b, c, d];
-                let swaps = (0..4).flat_map(|i| (i + 1..4).map(move |k| (i, k))).filter(|(i, k)| order[*i] > order[*k]).count();
+                let swaps = (0..4)
+                    .flat_map(|i| (i + 1..4).map(move |k| (i, k)))
+                    .filter(|(i, k)| order[*i] > order[*k])
+                    .count();
                 let term = m[0][a] * m[1][b] * m[2][c] * m[3][d];
                 sum += if swaps % 2 == 0 { term } else { -term };
             }
@@ -250,7 +265,9 @@ fn radius_is_that_of_the_spheroid() {
         let w = 1.0 / norm(&x);
         let kerr = Kerr::new(spin);
         worst.see((kerr.radius(&x) / r - 1.0).abs(), || format!("a = {spin}, r = {r}"));
-        worst.see((kerr.inverse_radius(w, &x.map(|c| c * w)) * r - 1.0).abs(), || format!("a = {spin}, r = {r}"));
+        worst.see((kerr.inverse_radius(w, &x.map(|c| c * w)) * r - 1.0).abs(), || {
+            format!("a = {spin}, r = {r}")
+        });
     }
     worst.below(2e-15, "r");
     assert_eq!(Kerr::new(0.9).inverse_radius(0.0, &[0.6, 0.0, 0.8]), 0.0);
@@ -299,7 +316,9 @@ fn christoffel<M: Metric, S: Scalar>(metric: &M, x: &Vec3<S>) -> [Tensor<S>; 4] 
     std::array::from_fn(|m| {
         std::array::from_fn(|s| {
             std::array::from_fn(|t| {
-                (0..4).fold(zero, |sum, a| sum + raised[m][a] * (slope(s, t, a) + slope(t, a, s) - slope(a, s, t)) * 0.5)
+                (0..4).fold(zero, |sum, a| {
+                    sum + raised[m][a] * (slope(s, t, a) + slope(t, a, s) - slope(a, s, t)) * 0.5
+                })
             })
         })
     })
@@ -311,7 +330,9 @@ fn vacuum() {
     fn ricci<M: Metric>(metric: &M, x: &Vec3<f64>) -> (f64, f64) {
         let nested = christoffel(metric, &Dual::variables(*x));
         let gamma = |m: usize, s: usize, t: usize| nested[m][s][t].value;
-        let slope = |a: usize, m: usize, s: usize, t: usize| if a == 0 { 0.0 } else { nested[m][s][t].gradient[a - 1] };
+        let slope = |a: usize, m: usize, s: usize, t: usize| {
+            if a == 0 { 0.0 } else { nested[m][s][t].gradient[a - 1] }
+        };
         let (mut worst, mut size): (f64, f64) = (0.0, 0.0);
         for s in 0..4 {
             for n in 0..4 {
@@ -391,7 +412,12 @@ fn christoffel_symbols_of_a_metric_by_hand() {
         for m in 0..4 {
             for s in 0..4 {
                 let error = apart(&got[m][s], &want[m][s]);
-                assert!(error < 1e-14 * norm(&want[m][s]).max(1.0), "Γ^{m}_{s}: {:?}, {:?}", got[m][s], want[m][s]);
+                assert!(
+                    error < 1e-14 * norm(&want[m][s]).max(1.0),
+                    "Γ^{m}_{s}: {:?}, {:?}",
+                    got[m][s],
+                    want[m][s]
+                );
             }
         }
         // The general equations of motion agree with the geodesic equation, ṗ_i = Γ^μ_{iν} p_μ ẋᵛ.

@@ -271,7 +271,8 @@ fn deflection() {
             let offset = b / 27f64.sqrt() - 1.0;
             worst.see((sign * phi - PI - exact).abs() * offset.min(1.0), || format!("b = {b}"));
             let same = follow(&Integrator::new(Kerr::new(0.0), DOP853, 10_000), &ray, &Query::default());
-            worst.see((same.direction.unwrap()[1] - phi).abs() * offset.min(1.0), || format!("Kerr, b = {b}"));
+            worst
+                .see((same.direction.unwrap()[1] - phi).abs() * offset.min(1.0), || format!("Kerr, b = {b}"));
         }
     }
     worst.below(1e-13, "deflection");

@@ -12,7 +12,8 @@ use kerrscope_spacetime::tensor::{cross, dot};
 use std::f64::consts::PI;
 
 fn camera(random: &mut Random) -> Observer {
-    let place = Place { r: random.scale(0.5, 1e3), theta: random.within(0.0, PI), phi: random.within(-9.0, 9.0) };
+    let place =
+        Place { r: random.scale(0.5, 1e3), theta: random.within(0.0, PI), phi: random.within(-9.0, 9.0) };
     Observer::new(None, place, Motion::Static).unwrap()
 }
 
@@ -81,10 +82,9 @@ fn straight_is_exact() {
 #[test]
 fn integrated_lines_are_straight() {
     let dop853 = Scheme::Dop853 { tolerance: 1e-13 };
-    for (scheme, tolerance, count) in [
-        (dop853, 5e-14, 1000),
-        (Scheme::Tsit5 { tolerance: 1e-12 }, 1e-13, 200),
-    ] {
+    for (scheme, tolerance, count) in
+        [(dop853, 5e-14, 1000), (Scheme::Tsit5 { tolerance: 1e-12 }, 1e-13, 200)]
+    {
         let mut random = Random::new(32);
         let (mut worst, mut azimuths) = (Worst::default(), Worst::default());
         let tracer = Integrator::new(Minkowski, scheme, 10_000);
@@ -189,7 +189,8 @@ fn lines_from_infinity() {
             worst.see(distance(c.position, exact) / size, place);
             // The camera's distance is taken off.
             worst.see((c.elapsed - depth).abs() / size, place);
-            worst.see(folded(c.phi - exact[1].atan2(exact[0])).abs() * exact[0].hypot(exact[1]) / size, place);
+            worst
+                .see(folded(c.phi - exact[1].atan2(exact[0])).abs() * exact[0].hypot(exact[1]) / size, place);
             // On the other side of the sky, half a turn on in the sense of J_z.
             let [theta, phi] = path.direction.unwrap();
             worst.see((theta - (PI - inclination)).abs(), place);

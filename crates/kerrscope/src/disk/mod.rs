@@ -96,11 +96,7 @@ impl Disk {
         let place = Place {
             radius: hit.radius / self.outer,
             // A disk without width has no across.
-            across: if across.is_finite() {
-                across.clamp(0.0, 1.0)
-            } else {
-                0.5
-            },
+            across: if across.is_finite() { across.clamp(0.0, 1.0) } else { 0.5 },
             azimuth: self.plane.azimuth(hit.position),
         };
         let sheet = match &self.surface {

@@ -12,9 +12,7 @@ pub(super) struct Noise {
 impl Noise {
     /// Noise of a seed; each `layer` is independent of the others.
     pub(super) const fn new(seed: u64, layer: u64) -> Self {
-        Self {
-            seed: mix(seed ^ mix(layer)),
-        }
+        Self { seed: mix(seed ^ mix(layer)) }
     }
 
     /// Noise along a line, one random value at each whole number.

@@ -2,6 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::Place;
 use crate::light::Sheet;
 use crate::texture::Texture;
@@ -38,7 +41,8 @@ pub struct Picture {
 }
 
 /// How a picture is laid on a disk.
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Mapping {
     /// Wound around the hole: from left to right once around in the sense of growing
     /// azimuth, beginning at the ascending node; the top row is the outer edge, the
@@ -62,9 +66,7 @@ pub enum Mapping {
 impl Picture {
     pub(super) fn at(&self, place: Place) -> Sheet {
         match self.mapping {
-            Mapping::Around => self
-                .texture
-                .sample(place.azimuth / TAU, 1.0 - place.across, true),
+            Mapping::Around => self.texture.sample(place.azimuth / TAU, 1.0 - place.across, true),
             Mapping::Flat => {
                 let (sin, cos) = place.azimuth.sin_cos();
                 let (x, y) = (place.radius * cos, place.radius * sin);

@@ -30,21 +30,13 @@ pub struct Plane {
 
 impl Plane {
     /// The equator, azimuth measured from +x.
-    pub const EQUATOR: Self = Self {
-        normal: [0.0, 0.0, 1.0],
-        node: [1.0, 0.0, 0.0],
-        ahead: [0.0, 1.0, 0.0],
-    };
+    pub const EQUATOR: Self = Self { normal: [0.0, 0.0, 1.0], node: [1.0, 0.0, 0.0], ahead: [0.0, 1.0, 0.0] };
 
     /// The plane of a tilt and a longitude of the ascending node, in radians. An angle
     /// that is not finite counts as 0.
     pub fn new(tilt: f64, node: f64) -> Self {
         let sin_cos = |angle: f64| {
-            if angle.is_finite() {
-                angle.sin_cos()
-            } else {
-                (0.0, 1.0)
-            }
+            if angle.is_finite() { angle.sin_cos() } else { (0.0, 1.0) }
         };
         let ((sin_i, cos_i), (sin_n, cos_n)) = (sin_cos(tilt), sin_cos(node));
         // Adding 0 turns −0 into 0, which prints better.

@@ -31,9 +31,7 @@ impl PartialEq for Ring {
 
 impl std::fmt::Debug for Ring {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Ring")
-            .field("seed", &self.seed)
-            .finish_non_exhaustive()
+        f.debug_struct("Ring").field("seed", &self.seed).finish_non_exhaustive()
     }
 }
 
@@ -51,13 +49,7 @@ const ARC_ROWS: usize = 256;
 const ARC_COLUMNS: usize = 256;
 
 /// Bands across the disk and the weight of each scale.
-const SCALES: [(f64, f64); 5] = [
-    (4.0, 0.8),
-    (9.0, 0.9),
-    (21.0, 0.8),
-    (45.0, 0.5),
-    (93.0, 0.3),
-];
+const SCALES: [(f64, f64); 5] = [(4.0, 0.8), (9.0, 0.9), (21.0, 0.8), (45.0, 0.5), (93.0, 0.3)];
 
 /// Arcs across the disk, arcs around it, and the weight of each scale.
 const ARC_SCALES: [(f64, i64, f64); 3] = [(5.0, 4, 1.0), (12.0, 7, 0.9), (12.0, 13, 0.5)];
@@ -65,10 +57,7 @@ const ARC_SCALES: [(f64, i64, f64); 3] = [(5.0, 4, 1.0), (12.0, 7, 0.9), (12.0, 
 impl Ring {
     /// The ring of a seed.
     pub fn new(seed: u64) -> Self {
-        Self {
-            seed,
-            tables: Arc::new(Tables::new(seed)),
-        }
+        Self { seed, tables: Arc::new(Tables::new(seed)) }
     }
 
     /// The seed.
@@ -80,18 +69,13 @@ impl Ring {
         let [opacity, r, g, b] = self.tables.band(place.across);
         let turns = place.azimuth / TAU;
         let opacity = opacity * self.tables.arc(place.across, turns - turns.floor());
-        Sheet {
-            light: Light::new([r, g, b]) * opacity,
-            opacity,
-        }
+        Sheet { light: Light::new([r, g, b]) * opacity, opacity }
     }
 }
 
 impl Tables {
     fn new(seed: u64) -> Self {
-        let bands = (0..BANDS)
-            .map(|i| band(seed, i as f64 / (BANDS - 1) as f64))
-            .collect();
+        let bands = (0..BANDS).map(|i| band(seed, i as f64 / (BANDS - 1) as f64)).collect();
         let arcs = (0..ARC_ROWS * ARC_COLUMNS)
             .map(|i| {
                 let s = (i / ARC_COLUMNS) as f64 / (ARC_ROWS - 1) as f64;
@@ -114,11 +98,7 @@ impl Tables {
         let (i, j) = ((x as usize).min(ARC_ROWS - 2), y as usize);
         let (fx, fy) = (x - i as f64, y - j as f64);
         let at = |i, j| f64::from(self.arcs[i * ARC_COLUMNS + j % ARC_COLUMNS]);
-        lerp(
-            lerp(at(i, j), at(i + 1, j), fx),
-            lerp(at(i, j + 1), at(i + 1, j + 1), fx),
-            fy,
-        )
+        lerp(lerp(at(i, j), at(i + 1, j), fx), lerp(at(i, j + 1), at(i + 1, j + 1), fx), fy)
     }
 }
 

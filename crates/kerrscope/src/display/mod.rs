@@ -48,8 +48,6 @@ impl Display {
         let exposed = light.rgb.map(|c| c * scale);
         // What is not a number is not above 0 either.
         let exposed = exposed.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
-        self.tone
-            .apply(exposed)
-            .map(|c| srgb::encode(c.clamp(0.0, 1.0)))
+        self.tone.apply(exposed).map(|c| srgb::encode(c.clamp(0.0, 1.0)))
     }
 }

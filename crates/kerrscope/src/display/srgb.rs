@@ -35,9 +35,5 @@ pub fn encode(linear: f64) -> f64 {
 /// assert!((srgb::decode(srgb::encode(0.3)) - 0.3).abs() < 1e-12);
 /// ```
 pub fn decode(encoded: f64) -> f64 {
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
+    if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }

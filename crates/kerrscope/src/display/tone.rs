@@ -1,5 +1,8 @@
 //! Tone curves: what becomes of light brighter than the screen.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 /// A tone curve: from exposed linear light, 0 and up, to linear light that a screen
 /// can show.
 ///
@@ -11,7 +14,8 @@
 /// let [red, green, _] = Tone::Neutral.apply([8.0, 2.0, 0.0]);
 /// assert!(red < 1.0 && green < red);
 /// ```
-#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Tone {
     /// The highlight compression of Khronos PBR Neutral: nothing changes below a
     /// knee at 0.76; above it the largest component approaches 1 and the colour

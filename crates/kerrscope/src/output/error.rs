@@ -24,50 +24,33 @@ impl FileError {
         fault: impl Into<String>,
         mend: &'static str,
     ) -> Self {
-        Self {
-            path: path.to_path_buf(),
-            action,
-            fault: fault.into(),
-            mend,
-        }
+        Self { path: path.to_path_buf(), action, fault: fault.into(), mend }
     }
 
     /// A file that could not be written.
     pub(super) fn write(path: &Path, error: &io::Error) -> Self {
         let (fault, mend) = match error.kind() {
-            ErrorKind::PermissionDenied => (
-                "no permission to write there".to_owned(),
-                "choose another folder or change its permissions",
-            ),
-            ErrorKind::ReadOnlyFilesystem => (
-                "the disk can only be read".to_owned(),
-                "choose a folder on another disk",
-            ),
-            ErrorKind::StorageFull => (
-                "the disk is full".to_owned(),
-                "make room or choose another disk",
-            ),
-            ErrorKind::QuotaExceeded => (
-                "the disk quota is used up".to_owned(),
-                "make room or choose another disk",
-            ),
+            ErrorKind::PermissionDenied => {
+                ("no permission to write there".to_owned(), "choose another folder or change its permissions")
+            }
+            ErrorKind::ReadOnlyFilesystem => {
+                ("the disk can only be read".to_owned(), "choose a folder on another disk")
+            }
+            ErrorKind::StorageFull => ("the disk is full".to_owned(), "make room or choose another disk"),
+            ErrorKind::QuotaExceeded => {
+                ("the disk quota is used up".to_owned(), "make room or choose another disk")
+            }
             ErrorKind::FileTooLarge => (
-                "the file is larger than the file system or a limit of this session allows"
-                    .to_owned(),
+                "the file is larger than the file system or a limit of this session allows".to_owned(),
                 "choose another disk or a smaller picture",
             ),
-            ErrorKind::InvalidFilename => (
-                "the name is too long or not allowed".to_owned(),
-                "choose another name",
-            ),
-            ErrorKind::NotFound => (
-                "the folder does not exist".to_owned(),
-                "create it or choose another one",
-            ),
-            ErrorKind::NotADirectory => (
-                "a part of the path is not a folder".to_owned(),
-                "check the path",
-            ),
+            ErrorKind::InvalidFilename => {
+                ("the name is too long or not allowed".to_owned(), "choose another name")
+            }
+            ErrorKind::NotFound => {
+                ("the folder does not exist".to_owned(), "create it or choose another one")
+            }
+            ErrorKind::NotADirectory => ("a part of the path is not a folder".to_owned(), "check the path"),
             _ => (error.to_string(), "check the disk or choose another place"),
         };
         Self::new("write", path, fault, mend)
@@ -77,15 +60,9 @@ impl FileError {
     pub(super) fn read(path: &Path, error: &io::Error) -> Self {
         let (fault, mend) = match error.kind() {
             ErrorKind::NotFound => ("there is no such file".to_owned(), "check the path"),
-            ErrorKind::PermissionDenied => (
-                "no permission to read it".to_owned(),
-                "change its permissions",
-            ),
+            ErrorKind::PermissionDenied => ("no permission to read it".to_owned(), "change its permissions"),
             ErrorKind::IsADirectory => ("it is a folder".to_owned(), "give a file in it"),
-            _ => (
-                error.to_string(),
-                "check the file and the disk that it is on",
-            ),
+            _ => (error.to_string(), "check the file and the disk that it is on"),
         };
         Self::new("read", path, fault, mend)
     }

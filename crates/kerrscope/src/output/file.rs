@@ -41,12 +41,7 @@ pub fn write_atomically(
 ) -> Result<(), FileError> {
     let failed = |error: io::Error| FileError::write(path, &error);
     if path.as_os_str().is_empty() {
-        return Err(FileError::new(
-            "write",
-            path,
-            "the name is empty",
-            "give a file name",
-        ));
+        return Err(FileError::new("write", path, "the name is empty", "give a file name"));
     }
     let is_folder = || FileError::new("write", path, "it is a folder", "give a file name in it");
     // Paths drop a slash at the end, which says that a folder is meant.

@@ -86,9 +86,7 @@ impl Png {
         pixels: &[Light],
         provenance: &Provenance,
     ) -> Result<(), FileError> {
-        write_atomically(path, |to| {
-            self.encode(to, width, height, pixels, provenance)
-        })
+        write_atomically(path, |to| self.encode(to, width, height, pixels, provenance))
     }
 
     /// Writes a picture to any place that takes bytes.
@@ -107,10 +105,7 @@ impl Png {
         provenance: &Provenance,
     ) -> io::Result<()> {
         let area = u64::from(width) * u64::from(height);
-        assert!(
-            area > 0 && area == pixels.len() as u64,
-            "{width}×{height} pixels expected"
-        );
+        assert!(area > 0 && area == pixels.len() as u64, "{width}×{height} pixels expected");
 
         let mut encoder = png::Encoder::new(to, width, height);
         encoder.set_color(ColorType::Rgb);
@@ -126,14 +121,10 @@ impl Png {
             // PNG forbids U+0000 in text. No TOML holds one; a picture that took a day to
             // make is not lost over it.
             let text = text.replace('\0', "\u{FFFD}");
-            encoder
-                .add_itxt_chunk(keyword.to_owned(), text)
-                .map_err(plain)?;
+            encoder.add_itxt_chunk(keyword.to_owned(), text).map_err(plain)?;
         }
         let mut writer = encoder.write_header().map_err(plain)?;
-        writer
-            .write_image_data(&self.quantise(pixels))
-            .map_err(plain)?;
+        writer.write_image_data(&self.quantise(pixels)).map_err(plain)?;
         writer.finish().map_err(plain)
     }
 
@@ -141,25 +132,22 @@ impl Png {
     fn quantise(&self, pixels: &[Light]) -> Vec<u8> {
         let size = 3 * self.depth.bytes();
         let mut bytes = vec![0; size * pixels.len()];
-        bytes
-            .par_chunks_mut(size * 4096)
-            .zip(pixels.par_chunks(4096))
-            .for_each(|(bytes, pixels)| {
-                for (bytes, &pixel) in bytes.chunks_exact_mut(size).zip(pixels) {
-                    let values = self.display.encode(pixel);
-                    match self.depth {
-                        Depth::Eight => {
-                            bytes.copy_from_slice(&values.map(|v| (v * 255.0).round() as u8));
-                        }
-                        Depth::Sixteen => {
-                            for (bytes, value) in bytes.chunks_exact_mut(2).zip(values) {
-                                let step = (value * 65535.0).round() as u16;
-                                bytes.copy_from_slice(&step.to_be_bytes());
-                            }
+        bytes.par_chunks_mut(size * 4096).zip(pixels.par_chunks(4096)).for_each(|(bytes, pixels)| {
+            for (bytes, &pixel) in bytes.chunks_exact_mut(size).zip(pixels) {
+                let values = self.display.encode(pixel);
+                match self.depth {
+                    Depth::Eight => {
+                        bytes.copy_from_slice(&values.map(|v| (v * 255.0).round() as u8));
+                    }
+                    Depth::Sixteen => {
+                        for (bytes, value) in bytes.chunks_exact_mut(2).zip(values) {
+                            let step = (value * 65535.0).round() as u16;
+                            bytes.copy_from_slice(&step.to_be_bytes());
                         }
                     }
                 }
-            });
+            }
+        });
         bytes
     }
 }
@@ -179,22 +167,11 @@ pub fn read_provenance(path: &Path) -> Result<Provenance, FileError> {
     let file = File::open(path).map_err(|e| FileError::read(path, &e))?;
     let text = find_text(file).map_err(|error| match error {
         png::DecodingError::IoError(e) => FileError::read(path, &e),
-        other => FileError::new(
-            "read",
-            path,
-            other.to_string(),
-            "give a PNG file that is whole",
-        ),
+        other => FileError::new("read", path, other.to_string(), "give a PNG file that is whole"),
     })?;
     let missing = "give a picture as kerrscope wrote it";
-    let text = text.ok_or_else(|| {
-        FileError::new(
-            "read",
-            path,
-            "it does not say how kerrscope made it",
-            missing,
-        )
-    })?;
+    let text =
+        text.ok_or_else(|| FileError::new("read", path, "it does not say how kerrscope made it", missing))?;
     text.parse().map_err(|fault| {
         let fault = format!("its text {KEYWORD:?} is no record of how it was made: {fault}");
         FileError::new("read", path, fault, missing)

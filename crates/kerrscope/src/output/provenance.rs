@@ -68,11 +68,7 @@ impl fmt::Display for Provenance {
         writeln!(f, "{TITLE}")?;
         writeln!(f, "# version = {}", quoted(&self.version))?;
         writeln!(f, "# seed = {}", self.seed)?;
-        writeln!(
-            f,
-            "# instruction_level = {}",
-            quoted(&self.instruction_level)
-        )?;
+        writeln!(f, "# instruction_level = {}", quoted(&self.instruction_level))?;
         writeln!(f, "#")?;
         f.write_str(&self.scene_toml)
     }
@@ -105,9 +101,7 @@ impl FromStr for Provenance {
         };
         Ok(Self {
             version: string("version")?,
-            seed: value("seed")?
-                .as_u64()
-                .ok_or(ProvenanceFault::Line("seed"))?,
+            seed: value("seed")?.as_u64().ok_or(ProvenanceFault::Line("seed"))?,
             instruction_level: string("instruction_level")?,
             scene_toml: scene.to_owned(),
         })

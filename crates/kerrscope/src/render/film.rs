@@ -104,10 +104,10 @@ impl Tally {
     pub fn quantile(&self, share: f64) -> f64 {
         let total: u64 = self.octaves.iter().sum();
         let mut rest = share * total as f64;
-        for (octave, &count) in self.octaves.iter().enumerate() {
+        for (octave, &count) in (-63..).zip(&self.octaves) {
             rest -= count as f64;
             if count > 0 && rest <= 0.0 {
-                return 2f64.powi(octave as i32 - 63);
+                return 2f64.powi(octave);
             }
         }
         0.0
@@ -120,8 +120,7 @@ mod tests {
 
     #[test]
     fn moments_of_two_dots() {
-        let mut film =
-            Film { width: 8, height: 4, pixels: vec![Light::DARK; 32], tally: Tally::default() };
+        let mut film = Film { width: 8, height: 4, pixels: vec![Light::DARK; 32], tally: Tally::default() };
         assert!(film.moments(1.0).is_none());
         // At (1.5, 0.5) and (6.5, 0.5) from the top left: 5 apart, 1.5 above the middle.
         film.pixels[1] = Light::new([1.0; 3]);

@@ -95,14 +95,13 @@ impl Stage {
     /// The light that arrives at a point of the picture.
     pub fn ray(&self, [x, y]: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
         let path = &mut replay.path;
-        match self.camera.ray(x, y) {
-            Ok(ray) => self.tracer.trace(&ray, &self.query, path),
+        if let Ok(ray) = self.camera.ray(x, y) {
+            self.tracer.trace(&ray, &self.query, path);
+        } else {
             // No photon with such impact parameters gets here: dark.
-            Err(_) => {
-                path.clear();
-                path.fate = Fate::Captured;
-                path.error_estimate = 0.0;
-            }
+            path.clear();
+            path.fate = Fate::Captured;
+            path.error_estimate = 0.0;
         }
         tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
         let mut beam = Beam::new();
@@ -145,13 +144,9 @@ fn linear(color: [f64; 3]) -> Light {
 
 fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
     let surface = match &disk.surface {
-        scene::Surface::Ring { seed, .. } => Surface::Ring(Ring::new(*seed)),
+        scene::Surface::Ring { seed } => Surface::Ring(Ring::new(*seed)),
         scene::Surface::Picture { path, mapping } => {
-            let mapping = match mapping {
-                scene::Mapping::Around => crate::disk::Mapping::Around,
-                scene::Mapping::Flat => crate::disk::Mapping::Flat,
-            };
-            Surface::Picture(Picture { texture: Texture::load(path)?, mapping })
+            Surface::Picture(Picture { texture: Texture::load(path)?, mapping: *mapping })
         }
     };
     Ok(Disk {
@@ -159,7 +154,7 @@ fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
         outer: disk.outer,
         plane: Plane::new(disk.tilt, disk.node),
         surface,
-        tint: [disk.brightness; 3],
+        tint: disk.color.map(|c| srgb::decode(c) * disk.brightness),
         opacity: disk.opacity,
     })
 }

@@ -11,11 +11,7 @@ use super::tree::{Node, Value};
 /// What does not fit is reported and taken out of the tree, so that the rest can be read.
 /// Returns the paths at which something was taken out.
 pub(super) fn check(root: &mut Node, schema: &Json, faults: &mut Collector) -> Vec<String> {
-    let mut check = Check {
-        schema,
-        faults,
-        removed: Vec::new(),
-    };
+    let mut check = Check { schema, faults, removed: Vec::new() };
     if let Value::Table(_) = root.value {
         check.table(root, schema, "");
     }
@@ -33,11 +29,7 @@ impl Check<'_> {
     fn value(&mut self, node: &mut Node, schema: &Json, path: &str) -> bool {
         let shape = Shape::new(schema);
         let Some(alternative) = shape.alternative(&node.value) else {
-            let place = if let Value::Table(_) = node.value {
-                &node.key
-            } else {
-                &node.place
-            };
+            let place = if let Value::Table(_) = node.value { &node.key } else { &node.place };
             self.faults.push(place, || wrong_kind(node, &shape, path));
             return false;
         };
@@ -60,9 +52,8 @@ impl Check<'_> {
             _ => None,
         };
         let range = Range::of(schema);
-        let whole_is_listed = |x: f64| {
-            shape::listed(schema).is_none_or(|listed| listed.iter().any(|n| n.as_f64() == Some(x)))
-        };
+        let whole_is_listed =
+            |x: f64| shape::listed(schema).is_none_or(|listed| listed.iter().any(|n| n.as_f64() == Some(x)));
         let typed = node.place.quoted();
         let what = match x {
             None => format!("{typed} is too large a number for `{path}`"),
@@ -88,10 +79,7 @@ impl Check<'_> {
         self.faults.push(&node.place, || {
             // `spin = "0.9"`, or a misspelt word?
             if let Some(mend) = quoted_in_vain(text, shape) {
-                return (
-                    format!("`{path}` cannot be the text {}", node.place.quoted()),
-                    mend,
-                );
+                return (format!("`{path}` cannot be the text {}", node.place.quoted()), mend);
             }
             let guess = similar(text, words.iter().copied());
             let mend = match guess {
@@ -114,10 +102,7 @@ impl Check<'_> {
             self.faults.push(&node.place, || {
                 let items = if count == 1 { "value" } else { "values" };
                 let wanted = Shape::new(schema).wanted();
-                (
-                    format!("`{path}` has {count} {items}"),
-                    format!("give {wanted}"),
-                )
+                (format!("`{path}` has {count} {items}"), format!("give {wanted}"))
             });
             return false;
         }
@@ -137,52 +122,30 @@ impl Check<'_> {
         };
         let known = |key: &str| shape::property(schema, key);
         table.retain(|key, child| {
-            let child_path = if path.is_empty() {
-                key.clone()
-            } else {
-                format!("{path}.{key}")
-            };
+            let child_path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
             let good = if let Some(schema) = known(key) {
                 self.value(child, schema, &child_path)
             } else {
-                self.faults.push(&child.key, || {
-                    unknown(key, child, path, schema, self.schema)
-                });
+                self.faults.push(&child.key, || unknown(key, child, path, schema, self.schema));
                 false
             };
-            let removed = if known(key).is_some() {
-                &child_path
-            } else {
-                path
-            };
+            let removed = if known(key).is_some() { &child_path } else { path };
             if !good && self.removed.last().is_none_or(|last| last != removed) {
                 self.removed.push(removed.to_owned());
             }
             good
         });
-        let required = schema
-            .get("required")
-            .and_then(Json::as_array)
-            .into_iter()
-            .flatten();
-        let missing: Vec<&str> = required
-            .filter_map(Json::as_str)
-            .filter(|key| !table.contains_key(*key))
-            .collect();
+        let required = schema.get("required").and_then(Json::as_array).into_iter().flatten();
+        let missing: Vec<&str> =
+            required.filter_map(Json::as_str).filter(|key| !table.contains_key(*key)).collect();
         // Nothing more is said of a key that was wrong, or may have been misspelt.
-        let reported = |key: &&str| {
-            self.removed
-                .iter()
-                .any(|gone| gone == path || *gone == format!("{path}.{key}"))
-        };
+        let reported =
+            |key: &&str| self.removed.iter().any(|gone| gone == path || *gone == format!("{path}.{key}"));
         if let Some(key) = missing.iter().find(|key| !reported(key)) {
             self.faults.push(&node.key, || {
                 let wanted = known(key).map(|schema| Shape::new(schema).wanted());
                 let wanted = wanted.unwrap_or_default();
-                (
-                    format!("`{path}` lacks `{key}`"),
-                    format!("give `{key}`: {wanted}"),
-                )
+                (format!("`{path}` lacks `{key}`"), format!("give `{key}`: {wanted}"))
             });
         }
         missing.is_empty()
@@ -206,9 +169,7 @@ fn wrong_kind(node: &Node, shape: &Shape<'_>, path: &str) -> (String, String) {
             mend = quoted_in_vain(text, shape).unwrap_or(mend);
             format!("the text {typed}")
         }
-        Value::Real(Some(real))
-            if shape.allows("integer") && real.fract() == 0.0 && real.abs() < 1e15 =>
-        {
+        Value::Real(Some(real)) if shape.allows("integer") && real.fract() == 0.0 && real.abs() < 1e15 => {
             mend = format!("write it as a whole number, {real}");
             format!("the real number {typed}")
         }
@@ -263,11 +224,7 @@ fn unknown(key: &str, node: &Node, path: &str, schema: &Json, root: &Json) -> (S
     let siblings = shape::properties(schema);
     let siblings: Vec<&str> = siblings.into_iter().map(|(key, _)| key).collect();
     if let Some(guess) = similar(key, siblings.iter().copied()) {
-        let guess = if path.is_empty() {
-            format!("[{guess}]")
-        } else {
-            format!("`{guess}`")
-        };
+        let guess = if path.is_empty() { format!("[{guess}]") } else { format!("`{guess}`") };
         return (what, format!("did you mean {guess}?"));
     }
     let mut homes = Vec::new();
@@ -294,11 +251,7 @@ fn sections_with(key: &str, schema: &Json, path: &str, into: &mut Vec<String>) {
         if name == key && !path.is_empty() {
             into.push(path.to_owned());
         }
-        let inner = if path.is_empty() {
-            name.to_owned()
-        } else {
-            format!("{path}.{name}")
-        };
+        let inner = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         sections_with(key, child, &inner, into);
     }
 }

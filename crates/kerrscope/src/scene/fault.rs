@@ -15,10 +15,7 @@ pub struct Source {
 
 impl Source {
     pub(crate) fn new(name: impl Into<String>, text: impl Into<String>) -> Arc<Self> {
-        Arc::new(Self {
-            name: name.into(),
-            text: text.into(),
-        })
+        Arc::new(Self { name: name.into(), text: text.into() })
     }
 
     /// Line and column of a byte, both counted from 1; the column counts characters.
@@ -121,10 +118,7 @@ impl<'a> IntoIterator for &'a Faults {
 
 impl From<Fault> for Faults {
     fn from(fault: Fault) -> Self {
-        Self {
-            faults: vec![fault],
-            omitted: 0,
-        }
+        Self { faults: vec![fault], omitted: 0 }
     }
 }
 
@@ -150,41 +144,27 @@ pub(crate) struct Place {
 }
 
 impl Place {
-    /// Bytes of a source. Where the parser miscounts, as it does after a byte order mark within
-    /// the text, whole characters are taken all the same.
+    /// Bytes of a source, widened to whole characters: a parser's word is not relied on for that.
     pub(crate) fn new(source: &Arc<Source>, span: Range<usize>) -> Self {
         let start = source.text.floor_char_boundary(span.start);
         let end = source.text.ceil_char_boundary(span.end.max(start));
-        Self {
-            source: Arc::clone(source),
-            span: Some(start..end),
-        }
+        Self { source: Arc::clone(source), span: Some(start..end) }
     }
 
     /// The source as a whole.
     pub(crate) fn whole(source: &Arc<Source>) -> Self {
-        Self {
-            source: Arc::clone(source),
-            span: None,
-        }
+        Self { source: Arc::clone(source), span: None }
     }
 
     /// Whether the text goes on with this character.
     pub(crate) fn follows(&self, c: char) -> bool {
         let span = self.span.clone().unwrap_or_default();
-        self.source
-            .text
-            .get(span.start..)
-            .is_some_and(|rest| rest.starts_with(c))
+        self.source.text.get(span.start..).is_some_and(|rest| rest.starts_with(c))
     }
 
     /// The text as typed, shortened if long, for use in a message.
     pub(crate) fn quoted(&self) -> String {
-        let typed = self
-            .span
-            .clone()
-            .and_then(|span| self.source.text.get(span))
-            .unwrap_or("");
+        let typed = self.span.clone().and_then(|span| self.source.text.get(span)).unwrap_or("");
         shorten(typed)
     }
 }
@@ -227,12 +207,7 @@ impl Collector {
         }
         let (message, help) = text();
         let Place { source, span } = place.clone();
-        self.faults.push(Fault {
-            source,
-            span,
-            message,
-            help,
-        });
+        self.faults.push(Fault { source, span, message, help });
     }
 
     /// Whether nothing is wrong so far.
@@ -246,20 +221,11 @@ impl Collector {
             return Ok(value);
         }
         let order = |fault: &Fault| {
-            let source = self
-                .sources
-                .iter()
-                .position(|s| Arc::ptr_eq(s, &fault.source));
-            (
-                source,
-                fault.span.as_ref().map(|span| (span.start, span.end)),
-            )
+            let source = self.sources.iter().position(|s| Arc::ptr_eq(s, &fault.source));
+            (source, fault.span.as_ref().map(|span| (span.start, span.end)))
         };
         self.faults.sort_by_key(order);
         self.faults.dedup();
-        Err(Faults {
-            faults: self.faults,
-            omitted: self.omitted,
-        })
+        Err(Faults { faults: self.faults, omitted: self.omitted })
     }
 }

@@ -46,8 +46,7 @@ use std::path::Path;
 pub use fault::{Fault, Faults, Source};
 pub use file::SceneFile;
 pub use valid::{
-    Disk, Display, Engine, Mapping, Method, Observer, Render, Screen, ScreenKind, Sky, SkyPicture,
-    Spacetime, Surface, Tone,
+    Disk, Display, Engine, Method, Observer, Render, Screen, ScreenKind, Sky, SkyPicture, Spacetime, Surface,
 };
 
 /// What to call a text that came from no file.
@@ -81,9 +80,7 @@ impl Scene {
     ///
     /// Never: that scene is valid.
     pub fn built_in() -> Self {
-        SceneFile::default()
-            .build(Path::new(""))
-            .expect("the built-in scene is valid")
+        SceneFile::default().build(Path::new("")).expect("the built-in scene is valid")
     }
 
     /// Reads a scene. Paths in it begin at `folder`.
@@ -106,11 +103,7 @@ impl Scene {
     /// Everything that is wrong with the file and the overrides.
     pub fn load(path: Option<&Path>, overrides: &[String]) -> Result<Self, Faults> {
         match path {
-            None => read::scene(
-                Ok(Source::new("built-in scene", "")),
-                overrides,
-                Path::new(""),
-            ),
+            None => read::scene(Ok(Source::new("built-in scene", "")), overrides, Path::new("")),
             Some(path) => {
                 let folder = path.parent().unwrap_or(Path::new(""));
                 read::scene(read::file(path), overrides, folder)

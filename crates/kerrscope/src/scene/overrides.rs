@@ -28,19 +28,10 @@ pub(super) fn merge(root: &mut Node, text: &str, number: usize, faults: &mut Col
         let Value::Table(table) = &mut node.value else {
             return false;
         };
-        let empty = || Node {
-            key: place.clone(),
-            place: place.clone(),
-            value: Value::Table(BTreeMap::new()),
-        };
+        let empty =
+            || Node { key: place.clone(), place: place.clone(), value: Value::Table(BTreeMap::new()) };
         if i + 1 == path.len() {
-            table.insert(
-                key.clone(),
-                Node {
-                    key: place.clone(),
-                    ..value
-                },
-            );
+            table.insert(key.clone(), Node { key: place.clone(), ..value });
             return true;
         }
         node = table.entry(key.clone()).or_insert_with(empty);
@@ -62,29 +53,16 @@ fn read(source: &Arc<Source>, faults: &mut Collector) -> Option<(Path, Node)> {
             "" => "this override is empty".to_owned(),
             text => format!("`{}` gives no value", shorten(text)),
         };
-        return wrong(
-            0..text.len(),
-            what,
-            "write PATH=VALUE, as in spacetime.spin=0.9",
-        );
+        return wrong(0..text.len(), what, "write PATH=VALUE, as in spacetime.spin=0.9");
     };
-    let control = text
-        .char_indices()
-        .find(|(_, c)| c.is_control() && *c != '\t');
+    let control = text.char_indices().find(|(_, c)| c.is_control() && *c != '\t');
     if let Some((i, c)) = control {
         let mend = "an override is one line, PATH=VALUE";
-        return wrong(
-            i..i + c.len_utf8(),
-            "a control character in an override".to_owned(),
-            mend,
-        );
+        return wrong(i..i + c.len_utf8(), "a control character in an override".to_owned(), mend);
     }
     let keys = keys(path, source);
     let bare = |key: &str| {
-        !key.is_empty()
-            && key
-                .bytes()
-                .all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-')
+        !key.is_empty() && key.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_' || b == b'-')
     };
     if keys.len() > MAX_DEPTH || !keys.iter().all(|(key, _)| bare(key)) {
         let what = if path.trim().is_empty() {
@@ -92,47 +70,30 @@ fn read(source: &Arc<Source>, faults: &mut Collector) -> Option<(Path, Node)> {
         } else {
             format!("`{}` is no path to a key", shorten(path))
         };
-        return wrong(
-            0..path.len(),
-            what,
-            "write SECTION.KEY=VALUE, as in spacetime.spin=0.9",
-        );
+        return wrong(0..path.len(), what, "write SECTION.KEY=VALUE, as in spacetime.spin=0.9");
     }
     let start = text.len() - value.trim_start().len();
     let value = value.trim();
     let span = start..start + value.len();
     if value.is_empty() {
         let what = format!("`{}` is given no value", path.trim());
-        return wrong(
-            span,
-            what,
-            "write the value after `=`, as in spacetime.spin=0.9",
-        );
+        return wrong(span, what, "write the value after `=`, as in spacetime.spin=0.9");
     }
     let place = Place::new(source, span);
     // A shell takes quotation marks away, and nobody likes to write them twice.
     let is_word = !value.starts_with(['"', '\'', '[', '{', '#']) && DeValue::parse(value).is_err();
     if is_word {
         let value = Value::Text(value.to_owned());
-        return Some((
-            keys,
-            Node {
-                key: place.clone(),
-                place,
-                value,
-            },
-        ));
+        return Some((keys, Node { key: place.clone(), place, value }));
     }
     let (root, complete) = tree::parse(source, faults);
     if !complete {
         return None;
     }
-    let node = keys
-        .iter()
-        .try_fold(root, |node, (key, _)| match node.value {
-            Value::Table(mut table) => table.remove(key),
-            _ => None,
-        });
+    let node = keys.iter().try_fold(root, |node, (key, _)| match node.value {
+        Value::Table(mut table) => table.remove(key),
+        _ => None,
+    });
     Some((keys, node?))
 }
 

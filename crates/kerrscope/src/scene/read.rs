@@ -28,12 +28,7 @@ pub(super) fn scene(
     folder: &Path,
 ) -> Result<Scene, Faults> {
     let mut faults = Collector::default();
-    let Typed {
-        file,
-        root,
-        mut removed,
-        complete,
-    } = type_in(source, overrides, &mut faults);
+    let Typed { file, root, mut removed, complete } = type_in(source, overrides, &mut faults);
     if !complete {
         // Any key may be among what could not be read.
         removed.push(String::new());
@@ -52,11 +47,7 @@ struct Typed {
     complete: bool,
 }
 
-fn type_in(
-    source: Result<Arc<Source>, Fault>,
-    overrides: &[String],
-    faults: &mut Collector,
-) -> Typed {
+fn type_in(source: Result<Arc<Source>, Fault>, overrides: &[String], faults: &mut Collector) -> Typed {
     let source = source.and_then(|source| match source.text.len() {
         0..=MAX_BYTES => Ok(source),
         _ => Err(too_large(&source.name)),
@@ -67,12 +58,7 @@ fn type_in(
             tree::parse(&source, faults)
         }
         Err(fault) => {
-            let Fault {
-                source,
-                span,
-                message,
-                help,
-            } = fault;
+            let Fault { source, span, message, help } = fault;
             faults.add_source(&source);
             let root = Node::empty(&source);
             faults.push(&Place { source, span }, || (message, help));
@@ -83,26 +69,13 @@ fn type_in(
         complete &= overrides::merge(&mut root, text, i + 1, faults);
     }
     let removed = check::check(&mut root, &SCHEMA, faults);
-    let file = root
-        .to_toml()
-        .try_into()
-        .unwrap_or_else(|error: toml::de::Error| {
-            // The schema and the types are one definition, so that the check has found this too.
-            let text = || {
-                (
-                    error.message().to_owned(),
-                    "compare with `kerrscope schema`".to_owned(),
-                )
-            };
-            faults.push(&root.place, text);
-            SceneFile::default()
-        });
-    Typed {
-        file,
-        root,
-        removed,
-        complete,
-    }
+    let file = root.to_toml().try_into().unwrap_or_else(|error: toml::de::Error| {
+        // The schema and the types are one definition, so that the check has found this too.
+        let text = || (error.message().to_owned(), "compare with `kerrscope schema`".to_owned());
+        faults.push(&root.place, text);
+        SceneFile::default()
+    });
+    Typed { file, root, removed, complete }
 }
 
 /// Reads a scene file.
@@ -116,37 +89,27 @@ pub(super) fn file(path: &Path) -> Result<Arc<Source>, Fault> {
     };
     let unreadable = |error: std::io::Error| match error.kind() {
         ErrorKind::NotFound => fault("there is no such file".to_owned(), "check the path"),
-        ErrorKind::IsADirectory => fault(
-            "this is a folder".to_owned(),
-            "give the scene file within it",
-        ),
-        _ => fault(
-            format!("it cannot be read: {error}"),
-            "check the path and its permissions",
-        ),
+        ErrorKind::IsADirectory => fault("this is a folder".to_owned(), "give the scene file within it"),
+        _ => fault(format!("it cannot be read: {error}"), "check the path and its permissions"),
     };
     let mut bytes = Vec::new();
     // One byte more than allowed tells that there is more; a device has no size to ask for.
-    let mut file = File::open(path)
-        .map_err(unreadable)?
-        .take(MAX_BYTES as u64 + 1);
+    let mut file = File::open(path).map_err(unreadable)?.take(MAX_BYTES as u64 + 1);
     file.read_to_end(&mut bytes).map_err(unreadable)?;
     if bytes.len() > MAX_BYTES {
         return Err(too_large(&name));
     }
-    String::from_utf8(bytes)
-        .map(|text| Source::new(name.as_str(), text))
-        .map_err(|error| {
-            let good = error.utf8_error().valid_up_to();
-            // What is good keeps its place when the rest is replaced.
-            let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
-            Fault {
-                source: Source::new(name.as_str(), text),
-                span: Some(good..good + char::REPLACEMENT_CHARACTER.len_utf8()),
-                message: "this is not text in UTF-8".to_owned(),
-                help: "save the file in UTF-8, or check that it is a scene file".to_owned(),
-            }
-        })
+    String::from_utf8(bytes).map(|text| Source::new(name.as_str(), text)).map_err(|error| {
+        let good = error.utf8_error().valid_up_to();
+        // What is good keeps its place when the rest is replaced.
+        let text = String::from_utf8_lossy(error.as_bytes()).into_owned();
+        Fault {
+            source: Source::new(name.as_str(), text),
+            span: Some(good..good + char::REPLACEMENT_CHARACTER.len_utf8()),
+            message: "this is not text in UTF-8".to_owned(),
+            help: "save the file in UTF-8, or check that it is a scene file".to_owned(),
+        }
+    })
 }
 
 fn too_large(name: &str) -> Fault {

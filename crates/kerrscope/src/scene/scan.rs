@@ -40,10 +40,7 @@ pub(super) fn statements(text: &str) -> Vec<Statement> {
 
 /// The statement at the head of `tokens`, and how many tokens it has.
 fn statement(tokens: &[Token], text: &str) -> (usize, Statement) {
-    let first = tokens
-        .iter()
-        .map(Token::kind)
-        .find(|&kind| kind != TokenKind::Whitespace);
+    let first = tokens.iter().map(Token::kind).find(|&kind| kind != TokenKind::Whitespace);
     let is_header = first == Some(TokenKind::LeftSquareBracket);
     let mut refused = None;
     // Open brackets: what, where, and the dots of the key being read within.
@@ -100,14 +97,7 @@ fn statement(tokens: &[Token], text: &str) -> (usize, Statement) {
         };
         refused = refused.or(Some((span, what, mend)));
     }
-    (
-        length,
-        Statement {
-            range: 0..0,
-            is_header,
-            refused,
-        },
-    )
+    (length, Statement { range: 0..0, is_header, refused })
 }
 
 /// Whether a line within an open bracket can only be a statement of its own: `key =` or, since
@@ -116,14 +106,9 @@ fn starts_statement(line: &[Token], text: &str, within: Option<TokenKind>) -> bo
     let word = |token: &Token| {
         token.kind() == TokenKind::Atom
             && text[token.span().start()..].starts_with(|c: char| c.is_ascii_alphabetic())
-            && !matches!(
-                &text[token.span().start()..token.span().end()],
-                "true" | "false" | "inf" | "nan"
-            )
+            && !matches!(&text[token.span().start()..token.span().end()], "true" | "false" | "inf" | "nan")
     };
-    let mut line = line
-        .iter()
-        .filter(|token| token.kind() != TokenKind::Whitespace);
+    let mut line = line.iter().filter(|token| token.kind() != TokenKind::Whitespace);
     let (Some(first), Some(second)) = (line.next(), line.next()) else {
         return false;
     };
@@ -169,19 +154,12 @@ pub(super) fn without(text: &str, statements: &[Statement], faulty: &[bool]) -> 
 }
 
 /// Reports the statements that the parser must not see, and tells which they are.
-pub(super) fn refuse(
-    statements: &[Statement],
-    source: &Arc<Source>,
-    faults: &mut Collector,
-) -> Vec<bool> {
+pub(super) fn refuse(statements: &[Statement], source: &Arc<Source>, faults: &mut Collector) -> Vec<bool> {
     for statement in statements {
         if let Some((span, what, mend)) = &statement.refused {
             let place = Place::new(source, span.clone());
             faults.push(&place, || ((*what).to_owned(), (*mend).to_owned()));
         }
     }
-    statements
-        .iter()
-        .map(|statement| statement.refused.is_some())
-        .collect()
+    statements.iter().map(|statement| statement.refused.is_some()).collect()
 }

@@ -15,10 +15,7 @@ impl<'s> Shape<'s> {
     pub(super) fn new(schema: &'s Json) -> Self {
         let mut alternatives = Vec::new();
         flatten(schema, &mut alternatives);
-        Self {
-            alternatives,
-            default: schema.get("default"),
-        }
+        Self { alternatives, default: schema.get("default") }
     }
 
     /// The schema for values of the same kind as this one.
@@ -32,51 +29,36 @@ impl<'s> Shape<'s> {
             Value::Table(_) => kind == "object",
             Value::Date => false,
         };
-        self.alternatives
-            .iter()
-            .copied()
-            .find(|schema| fits(kind(schema)))
+        self.alternatives.iter().copied().find(|schema| fits(kind(schema)))
     }
 
     /// Whether a value of this `type` is allowed.
     pub(super) fn allows(&self, wanted: &str) -> bool {
-        self.alternatives
-            .iter()
-            .any(|schema| kind(schema) == wanted)
+        self.alternatives.iter().any(|schema| kind(schema) == wanted)
     }
 
     /// The words allowed; none if any text is, or no text.
     pub(super) fn words(&self) -> Vec<&'s str> {
-        self.alternatives
-            .iter()
-            .filter_map(|schema| schema.get("const")?.as_str())
-            .collect()
+        self.alternatives.iter().filter_map(|schema| schema.get("const")?.as_str()).collect()
     }
 
     /// "a number from -1 to 1", "\"isco\" or a number above 0".
     pub(super) fn wanted(&self) -> String {
         let mut phrases: Vec<String> = self.words().iter().map(|w| format!("\"{w}\"")).collect();
-        let others = self
-            .alternatives
-            .iter()
-            .filter(|schema| schema.get("const").is_none());
+        let others = self.alternatives.iter().filter(|schema| schema.get("const").is_none());
         phrases.extend(others.map(|schema| phrase(schema)));
         either(&phrases)
     }
 
     /// The default as it would be typed, if there is one and it is short.
     pub(super) fn default(&self) -> Option<String> {
-        self.default
-            .filter(|default| !default.is_object())
-            .map(typed)
+        self.default.filter(|default| !default.is_object()).map(typed)
     }
 }
 
 /// Lists the choices of a schema that have a type of their own.
 fn flatten<'s>(schema: &'s Json, into: &mut Vec<&'s Json>) {
-    let choices = ["anyOf", "oneOf"]
-        .into_iter()
-        .filter_map(|key| schema.get(key)?.as_array());
+    let choices = ["anyOf", "oneOf"].into_iter().filter_map(|key| schema.get(key)?.as_array());
     let before = into.len();
     for choice in choices.flatten() {
         flatten(choice, into);
@@ -99,11 +81,7 @@ pub(super) fn listed(schema: &Json) -> Option<&Vec<Json>> {
 /// What one schema allows, in words.
 fn phrase(schema: &Json) -> String {
     let number = |name: &str| {
-        let infinity = if may_be_infinite(schema) {
-            ", or inf"
-        } else {
-            ""
-        };
+        let infinity = if may_be_infinite(schema) { ", or inf" } else { "" };
         format!("{name}{}{infinity}", Range::of(schema))
     };
     match kind(schema) {
@@ -139,9 +117,7 @@ fn phrase(schema: &Json) -> String {
 pub(super) fn properties(schema: &Json) -> Vec<(&str, &Json)> {
     let properties = schema.get("properties").and_then(Json::as_object);
     let properties = properties.into_iter().flatten();
-    let mut properties: Vec<_> = properties
-        .map(|(key, schema)| (key.as_str(), schema))
-        .collect();
+    let mut properties: Vec<_> = properties.map(|(key, schema)| (key.as_str(), schema)).collect();
     properties.sort_unstable_by_key(|(key, _)| *key);
     properties
 }
@@ -153,10 +129,7 @@ pub(super) fn property<'s>(schema: &'s Json, key: &str) -> Option<&'s Json> {
 
 /// Whether `inf` is allowed.
 pub(super) fn may_be_infinite(schema: &Json) -> bool {
-    schema
-        .get("x-infinity")
-        .and_then(Json::as_bool)
-        .unwrap_or(false)
+    schema.get("x-infinity").and_then(Json::as_bool).unwrap_or(false)
 }
 
 /// "a", "a or b", "a, b or c".
@@ -184,11 +157,7 @@ fn typed(json: &Json) -> String {
 /// A number in the shorter of its notations.
 pub(super) fn readable(number: f64) -> String {
     let (plain, scientific) = (number.to_string(), format!("{number:e}"));
-    if plain.len() > 6 && scientific.len() < plain.len() {
-        scientific
-    } else {
-        plain
-    }
+    if plain.len() > 6 && scientific.len() < plain.len() { scientific } else { plain }
 }
 
 /// The bounds of a number.
@@ -201,22 +170,14 @@ pub(super) struct Range<'s> {
 impl<'s> Range<'s> {
     pub(super) fn of(schema: &'s Json) -> Self {
         let bound = |key: &str| schema.get(key).filter(|bound| bound.is_number());
-        Self {
-            min: bound("minimum"),
-            max: bound("maximum"),
-            above: bound("exclusiveMinimum"),
-        }
+        Self { min: bound("minimum"), max: bound("maximum"), above: bound("exclusiveMinimum") }
     }
 
     pub(super) fn contains(&self, x: f64) -> bool {
         let all = |bound: Option<&Json>, holds: fn(f64, f64) -> bool| {
-            bound
-                .and_then(Json::as_f64)
-                .is_none_or(|bound| holds(x, bound))
+            bound.and_then(Json::as_f64).is_none_or(|bound| holds(x, bound))
         };
-        all(self.min, |x, min| x >= min)
-            && all(self.above, |x, above| x > above)
-            && !self.is_exceeded_by(x)
+        all(self.min, |x, min| x >= min) && all(self.above, |x, above| x > above) && !self.is_exceeded_by(x)
     }
 
     /// Whether a number is too large, not too small.

@@ -36,20 +36,15 @@ impl Node {
     /// A table without keys, for a scene of which nothing is said.
     pub(super) fn empty(source: &Arc<Source>) -> Self {
         let place = Place::whole(source);
-        Self {
-            key: place.clone(),
-            place,
-            value: Value::Table(BTreeMap::new()),
-        }
+        Self { key: place.clone(), place, value: Value::Table(BTreeMap::new()) }
     }
 
     /// The value at a path such as `observer.distance`, if it was typed.
     pub(super) fn at(&self, path: &str) -> Option<&Self> {
-        path.split('.')
-            .try_fold(self, |node, key| match &node.value {
-                Value::Table(table) => table.get(key),
-                _ => None,
-            })
+        path.split('.').try_fold(self, |node, key| match &node.value {
+            Value::Table(table) => table.get(key),
+            _ => None,
+        })
     }
 
     /// The tree without its places, to be read by serde.
@@ -65,9 +60,7 @@ impl Node {
             Value::Date => toml::Value::String(self.place.quoted()),
             Value::List(list) => toml::Value::Array(list.iter().map(Self::to_toml).collect()),
             Value::Table(table) => {
-                let entries = table
-                    .iter()
-                    .map(|(key, node)| (key.clone(), node.to_toml()));
+                let entries = table.iter().map(|(key, node)| (key.clone(), node.to_toml()));
                 toml::Value::Table(entries.collect())
             }
         }
@@ -86,26 +79,36 @@ pub(super) fn parse(source: &Arc<Source>, faults: &mut Collector) -> (Node, bool
     for _ in 0..5 {
         let text = scan::without(&source.text, &statements, &faulty);
         let (table, errors) = DeTable::parse_recoverable(&text);
-        let mut again = false;
-        for error in &errors {
-            let span = error.span().unwrap_or(0..0);
-            let i = statements
-                .partition_point(|s| s.range.start <= span.start)
-                .saturating_sub(1);
-            let is_parsed = is_parsed(error);
-            // Later errors in a statement follow from the first.
-            if !is_parsed && faulty.get(i).copied().unwrap_or(false) {
-                continue;
-            }
-            let place = Place::new(source, span);
+        let holder = |error: &Error| {
+            let start = error.span().unwrap_or_default().start;
+            let after = statements.partition_point(|statement| statement.range.start <= start);
+            after.saturating_sub(1)
+        };
+        let mut report = |error: &Error| {
+            let place = Place::new(source, error.span().unwrap_or_default());
             faults.push(&place, || syntax(error, &place));
             complete = false;
-            if !is_parsed && let Some(faulty) = faulty.get_mut(i) {
-                *faulty = true;
-                again = true;
+        };
+        let mut again = false;
+        for error in errors.iter().filter(|error| !is_parsed(error)) {
+            // Later errors in a statement follow from the first.
+            match faulty.get_mut(holder(error)) {
+                Some(true) => continue,
+                Some(faulty) => {
+                    *faulty = true;
+                    again = true;
+                }
+                None => {}
             }
+            report(error);
         }
         if !again {
+            // What is given twice is known when all that is given is well-formed.
+            for error in errors.iter().filter(|error| is_parsed(error)) {
+                if faulty.get(holder(error)) == Some(&false) {
+                    report(error);
+                }
+            }
             let mut table = table.into_inner();
             if !complete {
                 table.remove(scan::UNKNOWN_SECTION);
@@ -121,10 +124,7 @@ pub(super) fn parse(source: &Arc<Source>, faults: &mut Collector) -> (Node, bool
 fn read_table(table: DeTable<'_>, source: &Arc<Source>) -> Value {
     let entries = table.into_iter().map(|(key, value)| {
         let place = Place::new(source, key.span());
-        (
-            key.into_inner().into_owned(),
-            read(value, Some(place), source),
-        )
+        (key.into_inner().into_owned(), read(value, Some(place), source))
     });
     Value::Table(entries.collect())
 }
@@ -133,9 +133,7 @@ fn read(value: Spanned<DeValue<'_>>, key: Option<Place>, source: &Arc<Source>) -
     let place = Place::new(source, value.span());
     let value = match value.into_inner() {
         DeValue::String(text) => Value::Text(text.into_owned()),
-        DeValue::Integer(whole) => {
-            Value::Whole(i128::from_str_radix(whole.as_str(), whole.radix()).ok())
-        }
+        DeValue::Integer(whole) => Value::Whole(i128::from_str_radix(whole.as_str(), whole.radix()).ok()),
         DeValue::Float(real) => {
             let typed = real.as_str();
             let parsed = typed.parse().ok();
@@ -143,18 +141,12 @@ fn read(value: Spanned<DeValue<'_>>, key: Option<Place>, source: &Arc<Source>) -
         }
         DeValue::Boolean(truth) => Value::Truth(truth),
         DeValue::Datetime(_) => Value::Date,
-        DeValue::Array(list) => Value::List(
-            list.into_iter()
-                .map(|value| read(value, None, source))
-                .collect(),
-        ),
+        DeValue::Array(list) => {
+            Value::List(list.into_iter().map(|value| read(value, None, source)).collect())
+        }
         DeValue::Table(table) => read_table(table, source),
     };
-    Node {
-        key: key.unwrap_or_else(|| place.clone()),
-        place,
-        value,
-    }
+    Node { key: key.unwrap_or_else(|| place.clone()), place, value }
 }
 
 /// Whether the parser keeps what such an error is about: the first of two equal keys, and the
@@ -166,30 +158,22 @@ fn is_parsed(error: &Error) -> bool {
 /// What a syntax error means and how to mend it, for people who never read TOML's grammar.
 fn syntax(error: &Error, place: &Place) -> (String, String) {
     let typed = place.quoted();
-    let (what, expected) = error
-        .message()
-        .split_once(", expected ")
-        .unwrap_or((error.message(), ""));
+    let (what, expected) = error.message().split_once(", expected ").unwrap_or((error.message(), ""));
     let said = |what: &str, mend: &str| (what.to_owned(), mend.to_owned());
     match what {
         "string values must be quoted" => no_value(&typed),
-        "key with no value" => said(
-            "this key has no value",
-            "write `key = value`; a comment begins with `#`",
+        "unquoted keys cannot be empty" => said("a key is missing here", "write `key = value`, or [section]"),
+        "invalid unquoted key" => said(
+            "this is no key",
+            "a key is a word of letters, numbers, `-` and `_`; a comment begins with `#`",
         ),
-        "duplicate key" => (
-            format!("`{typed}` is given twice"),
-            "keep one of the two".to_owned(),
-        ),
-        "unclosed table" | "unclosed array table" => {
-            said("this header is never closed", "close it with `]`")
+        "key with no value" => {
+            said("this key has no value", "write `key = value`; a comment begins with `#`")
         }
-        "invalid basic string" if expected == "`\"`" => {
-            said("this text is never closed", "end it with `\"`")
-        }
-        "invalid literal string" if expected == "`'`" => {
-            said("this text is never closed", "end it with `'`")
-        }
+        "duplicate key" => (format!("`{typed}` is given twice"), "keep one of the two".to_owned()),
+        "unclosed table" | "unclosed array table" => said("this header is never closed", "close it with `]`"),
+        "invalid basic string" if expected == "`\"`" => said("this text is never closed", "end it with `\"`"),
+        "invalid literal string" if expected == "`'`" => said("this text is never closed", "end it with `'`"),
         "unexpected key or value" if place.follows(',') => said(
             "a comma cannot follow this value",
             "decimals follow a point, 0.5; a list is in brackets, [1, 2, 3]",

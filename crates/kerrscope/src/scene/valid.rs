@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::disk::Mapping;
+use crate::display::Tone;
 use kerrscope_spacetime::observer::{Motion, Place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -111,17 +113,6 @@ pub enum Surface {
     },
 }
 
-/// How a picture is laid on a disk.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Mapping {
-    /// Its width goes once around, its height from the inner to the outer edge.
-    #[default]
-    Around,
-    /// It lies flat on the disk, its middle at the hole.
-    Flat,
-}
-
 /// What is seen where light comes from infinity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
@@ -217,15 +208,4 @@ pub struct Display {
     pub tone: Tone,
     /// Bits of a colour channel, 8 or 16.
     pub bits: u8,
-}
-
-/// A tone curve.
-#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Tone {
-    /// Bright light is compressed, its hue kept; all else is unchanged.
-    #[default]
-    Neutral,
-    /// Light brighter than the screen is cut off.
-    None,
 }

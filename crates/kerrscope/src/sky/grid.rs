@@ -17,12 +17,12 @@ const SOFTNESS: f64 = 0.35;
 const ORDINARY: f64 = 0.4;
 
 /// Linear light between the lines: north with 0 ≤ `phi` < π, north with π ≤ `phi` < 2π,
-/// then south likewise: blue and amber, green and magenta. Each has luminance 0.02.
+/// then south likewise: blue and amber, green and magenta. Each has luminance 0.005.
 const TINTS: [[f64; 3]; 4] = [
-    [0.010, 0.017, 0.080],
-    [0.048, 0.013, 0.003],
-    [0.004, 0.025, 0.010],
-    [0.045, 0.009, 0.055],
+    [0.0025, 0.00425, 0.0200],
+    [0.0120, 0.00325, 0.00075],
+    [0.0010, 0.00625, 0.0025],
+    [0.01125, 0.00225, 0.01375],
 ];
 
 /// Lines of latitude and longitude. They show how light bends: a round hole in front of
@@ -60,11 +60,7 @@ impl Grid {
     /// equator to the poles. Outside 1° to 90° it is brought to the nearer of the two,
     /// and taken as 15° if it is not a number.
     pub fn new(spacing: f64, lines: Light, brightness: f64) -> Self {
-        let spacing = if spacing.is_nan() {
-            15_f64.to_radians()
-        } else {
-            spacing
-        };
+        let spacing = if spacing.is_nan() { 15_f64.to_radians() } else { spacing };
         let spacing = spacing.clamp(1_f64.to_radians(), FRAC_PI_2);
         Self {
             step_phi: PI / (PI / spacing).round(),
@@ -76,11 +72,7 @@ impl Grid {
 
     /// The light that comes from a direction.
     pub fn radiance(&self, theta: f64, phi: f64) -> Light {
-        let theta = if theta.is_finite() {
-            theta.clamp(0.0, PI)
-        } else {
-            0.0
-        };
+        let theta = if theta.is_finite() { theta.clamp(0.0, PI) } else { 0.0 };
         let phi = if phi.is_finite() { phi } else { 0.0 };
         let (sin, latitude) = (theta.sin(), FRAC_PI_2 - theta);
 
@@ -89,11 +81,7 @@ impl Grid {
         // they merge.
         let to_meridian = |offset: f64| (sin * offset.sin().abs()).asin();
         let to_parallel = latitude - self.step_theta * (latitude / self.step_theta).round();
-        let to_zero = if phi.cos() > 0.0 {
-            to_meridian(phi)
-        } else {
-            FRAC_PI_2 - latitude.abs()
-        };
+        let to_zero = if phi.cos() > 0.0 { to_meridian(phi) } else { FRAC_PI_2 - latitude.abs() };
         let offset = phi - self.step_phi * (phi / self.step_phi).round();
 
         let ordinary = cover(to_meridian(offset), WIDTH).max(cover(to_parallel, WIDTH));

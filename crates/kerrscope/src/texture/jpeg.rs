@@ -7,10 +7,7 @@
 /// bytes. Within a scan FF 00 is a data byte, and FF FF is fill.
 pub(super) fn is_whole(bytes: &[u8]) -> bool {
     let mut at = 0;
-    while let Some(found) = bytes[at..]
-        .windows(2)
-        .position(|w| w[0] == 0xFF && w[1] != 0xFF)
-    {
+    while let Some(found) = bytes[at..].windows(2).position(|w| w[0] == 0xFF && w[1] != 0xFF) {
         let marker = bytes[at + found + 1];
         at += found + 2;
         match marker {

@@ -20,6 +20,10 @@ pub trait Chart<const D: usize>: Flow<f64, D> {
     fn state(&self, y: &[f64; D]) -> Inverted<f64>;
     /// T of the elapsed time t = (x·p + T)/E, zero if it is not integrated.
     fn virial(&self, y: &[f64; D]) -> f64;
+    /// Whether the state had to be rewritten, the photon being the same, to be regular further on.
+    fn settle(&self, _y: &mut [f64; D]) -> bool {
+        false
+    }
     /// Negative once the photon has left the chart's reach.
     fn reach(&self, y: &[f64; D]) -> f64;
     /// 1/radius.
@@ -41,7 +45,15 @@ impl<M: Metric, const D: usize> Chart<D> for InvertedFlow<M, f64> {
         unpack(y)
     }
     fn virial(&self, y: &[f64; D]) -> f64 {
-        if D == TIMED { y[8] } else { 0.0 }
+        if D == TIMED { y[8] - if y[9] == 0.0 { 0.0 } else { y[9] * y[0].ln() } } else { 0.0 }
+    }
+    fn settle(&self, y: &mut [f64; D]) -> bool {
+        let due = D == TIMED && y[9] == 0.0 && y[0] > 0.0 && y[4] > 0.0 && self.metric.horizon() > 0.0;
+        if due {
+            y[9] = 4.0 * self.energy;
+            y[8] += y[9] * y[0].ln();
+        }
+        due
     }
     fn reach(&self, y: &[f64; D]) -> f64 {
         y[0]

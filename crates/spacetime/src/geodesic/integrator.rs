@@ -36,9 +36,9 @@ const MAX_TURN: f64 = 0.8;
 /// later on: the direction of a typical ray then errs by a tenth of the tolerance.
 const STEP_SHARE: f64 = 1.0 / 30.0;
 
-/// Estimates are this multiple of the drift of conserved quantities, so that about one ray in
-/// a hundred errs by more.
-const CAUTION: f64 = 2.0;
+/// Estimates are this multiple of the drift of conserved quantities, plus a tenth of the
+/// tolerance for what that cannot show: at most one ray in twenty errs by more.
+const CAUTION: f64 = 3.0;
 
 /// A photon that rises through the horizon changes sheets at this multiple of its radius.
 const EXIT: f64 = 1.1;
@@ -97,7 +97,8 @@ impl<M: Metric> Integrator<M> {
         };
         let flow = InvertedFlow { metric, energy: ray.energy };
         let mut log = Log::new(&flow, metric, query, Origin::within(ray), path);
-        let end = walk::<_, Dop853, _, PLAIN, 12>(&flow, pack(&ray.start), &bounds, &self.fine_control(), &mut log);
+        let end =
+            walk::<_, Dop853, _, PLAIN, 12>(&flow, pack(&ray.start), &bounds, &self.fine_control(), &mut log);
         path.steps += end.steps;
         let state = flow.state(&end.y);
         match end.stop {
@@ -118,6 +119,14 @@ impl<M: Metric> Integrator<M> {
                 path.error_estimate = drift(&metric, ray.energy, &ray.start, &state);
             }
             _ => path.fate = Fate::StepLimit,
+        }
+    }
+
+    /// A tenth of the tolerance, zero for a scheme without one.
+    fn typical_error(&self) -> f64 {
+        match self.scheme {
+            Scheme::Rk4 { .. } => 0.0,
+            Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => 0.1 * tolerance,
         }
     }
 
@@ -203,7 +212,7 @@ impl<M: Metric> Integrator<M> {
         path.error_estimate = match end.stop {
             Stop::Left => drift * self.reversed.sensitivity(ray.energy, &ray.start),
             _ => drift,
-        };
+        } + self.typical_error();
         path.fate = match end.stop {
             Stop::Left => {
                 let n = state.n;
@@ -230,7 +239,8 @@ impl<M: Metric> Tracer for Integrator<M> {
 /// drifted, relative to their natural sizes.
 fn drift<M: Metric>(metric: &M, energy: f64, start: &Inverted<f64>, end: &Inverted<f64>) -> f64 {
     let size = energy * energy + dot(&start.j, &start.j);
-    let norm = (metric.norm(energy, end) - metric.norm(energy, start)).abs() / (energy * energy + end.q * end.q);
+    let norm =
+        (metric.norm(energy, end) - metric.norm(energy, start)).abs() / (energy * energy + end.q * end.q);
     let momentum = (end.j[2] - start.j[2]).abs() / size.sqrt();
     let carter = match (metric.carter(energy, start), metric.carter(energy, end)) {
         (Some(before), Some(after)) => (after - before).abs() / size,
@@ -318,13 +328,17 @@ impl<'a, C: Chart<D>, M: Metric, const D: usize> Log<'a, C, M, D> {
 
     /// Points evenly spaced in the walk's parameter, over the part of the ray that is near.
     fn sample(&mut self) {
-        let start = self.segments.first().map_or(0.0, |s| self.chart.state(&s.dense.at(0.0)).w);
-        let far = if start > 0.0 { start / 1.5 } else { f64::INFINITY }.min(1.0 / 30.0);
-        let near = |s: &Segment<D>, share: f64| self.chart.state(&s.dense.at(share)).w >= far;
-        let parameters = self.segments.iter().flat_map(|s| {
-            (0..=32).map(|k| f64::from(k) / 32.0 * s.until).filter(|t| near(s, *t)).map(|t| s.sigma + t * s.h)
-        });
-        let (first, last) = parameters.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let w = |s: &Segment<D>, share: f64| self.chart.state(&s.dense.at(share)).w;
+        let samples = || {
+            let share = |k: i32| f64::from(k) / 32.0;
+            self.segments.iter().flat_map(move |s| (0..=32).map(move |k| (s, share(k) * s.until)))
+        };
+        let start = self.segments.first().map_or(0.0, |s| w(s, 0.0));
+        let nearest = samples().map(|(s, t)| w(s, t)).fold(0.0, f64::max);
+        let far = if start > 0.0 { start / 1.5 } else { f64::INFINITY }.min(1.0 / 30.0).min(nearest / 1.5);
+        let parameters = samples().filter(|(s, t)| w(s, *t) >= far).map(|(s, t)| s.sigma + t * s.h);
+        let (first, last) =
+            parameters.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
         let count = self.query.points;
         let mut points = Vec::with_capacity(count);
         let mut segments = self.segments.iter().peekable();

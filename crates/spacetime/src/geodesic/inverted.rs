@@ -6,14 +6,16 @@
 //!
 //! Elapsed time: t = (x·p + T)/E, where dT/dλ = −x·ṗ. (Hamilton's equations give
 //! d(x·p)/dλ = ẋ·p + x·ṗ, and ẋ·p = E ṫ on a null geodesic.) T varies slowly where t does
-//! not, and does not diverge for an ingoing ray from infinity.
+//! not, and does not diverge for an ingoing ray from infinity. On the way out it grows as
+//! 4E ln r: the state holds T + κ ln w, with κ = 4E there, which is regular at infinity too.
 
 use super::flow::Flow;
 use crate::metric::{Inverted, Metric};
 use crate::scalar::Scalar;
 use crate::tensor::dot;
 
-/// Photons of one energy in the inverted chart: the state is (w, n, q, J), and T if `D` is 9.
+/// Photons of one energy in the inverted chart: the state is (w, n, q, J), and if `D` is 10
+/// T + κ ln w and κ besides.
 #[derive(Clone, Copy, Debug)]
 pub struct InvertedFlow<M, S> {
     /// The spacetime.
@@ -25,10 +27,7 @@ pub struct InvertedFlow<M, S> {
 /// The components of a state without T.
 pub const PLAIN: usize = 8;
 /// The components of a state with T.
-pub const TIMED: usize = 9;
-
-/// 1/r beyond which the elapsed time of an outgoing ray is not kept accurate.
-const LATEST: f64 = 1e-5;
+pub const TIMED: usize = 10;
 
 /// Splits a state into its named parts.
 #[inline(always)]
@@ -36,7 +35,7 @@ pub fn unpack<S: Scalar, const D: usize>(y: &[S; D]) -> Inverted<S> {
     Inverted { w: y[0], n: [y[1], y[2], y[3]], q: y[4], j: [y[5], y[6], y[7]] }
 }
 
-/// A state from its named parts, T = 0.
+/// A state from its named parts, T = 0 and κ = 0.
 #[inline(always)]
 pub fn pack<S: Scalar, const D: usize>(state: &Inverted<S>) -> [S; D] {
     let Inverted { w, n, q, j } = *state;
@@ -52,18 +51,18 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
         let mut slope = pack(&rate);
         if D == TIMED {
             // dT/dσ = −x·ṗ/w² = −(n·P)/w, where n·P = q′ − n′·p. It is O(w) at an ingoing
-            // ray's infinity, where the quotient's limit is zero.
+            // ray's infinity, where the quotient's limit is zero, and so is its sum with κ w′/w at
+            // an outgoing ray's.
             let pull = rate.q - dot(&rate.n, &state.momentum());
             let zero = state.w.constant(0.0);
             let at_infinity = state.w.abs().less(state.w.constant(1e-300));
-            slope[8] = S::select(at_infinity, zero, -(pull / state.w));
+            slope[8] = S::select(at_infinity, zero, (y[9] * rate.w - pull) / state.w);
         }
         slope
     }
 
     /// n counts by itself; w against 1/b, the inverse distance of closest approach in flat
-    /// space, and itself; q against the energy; J against its own length; T against r p,
-    /// as long as a crossing may be met: on the way out it grows as 4 ln r, without end.
+    /// space, and itself; q against the energy; J against its own length.
     #[inline(always)]
     fn inverse_scale(&self, y: &[S; D]) -> [S; D] {
         let Inverted { w, q, j, .. } = unpack(y);
@@ -74,7 +73,6 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
         let of_q = (q.abs() + energy).recip();
         let one = w.constant(1.0);
         let scales = [of_w, one, one, one, of_q, inverse_whole, inverse_whole, inverse_whole];
-        let of_time = S::select(w.less(w.constant(LATEST)), w.constant(0.0), w * of_q);
-        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { of_time })
+        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { w.constant(0.0) })
     }
 }

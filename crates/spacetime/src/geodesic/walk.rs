@@ -83,6 +83,7 @@ where
 {
     let adaptive = M::ERROR_ORDER > 0.0;
     let height = |y: &[f64; D]| dot(&place::<C, D>(y), &bounds.plane);
+    chart.settle(&mut y);
     let mut slope = chart.derivative(&y);
     let mut h = if adaptive { chart.step_for(&y, 0.3) } else { control.step };
     // A photon that starts in the plane has not crossed it.
@@ -113,11 +114,13 @@ where
         let reach = chart.reach(&step.end);
         let depth = chart.inverse_radius(&step.end);
         let below = height(&step.end);
-        let crosses = (above > 0.0) != (below > 0.0) && below != 0.0;
+        // A photon that has run within the plane so far has yet to choose its side.
+        let crosses = (above > 0.0) != (below > 0.0) && above != 0.0 && below != 0.0;
         let grazes = !crosses && above * height(&slope) < 0.0 && below * height(&end_slope) > 0.0;
         let leaves = reach < 0.0;
         let falls = bounds.inverse_exit.is_none() && depth > bounds.inverse_horizon;
-        let turn = winding::turn(&place::<C, D>(&y), &place::<C, D>(&step.end));
+        let heading = winding::heading(place::<C, D>(&y), place::<C, D>(&slope));
+        let turn = winding::turn(&heading, &place::<C, D>(&step.end));
         let near_axis = turn.abs() > winding::DOUBTFUL;
         let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
         let mut stop = if falls { Some(Stop::Fell) } else { None };
@@ -134,7 +137,7 @@ where
             let level = |t: f64| height(&dense.at(t));
             let mut meet = |theta: f64| {
                 if theta < until {
-                    let sweep = winding::sweep(&dense, C::PLACE, 0.0, theta);
+                    let sweep = winding::sweep(&dense, C::PLACE, &heading, theta);
                     visitor.crossing(&dense.at(theta), swept + sweep);
                 }
             };
@@ -154,7 +157,7 @@ where
             if until < 1.0 {
                 next.y = dense.at(until);
             }
-            next.swept = swept + winding::sweep(&dense, C::PLACE, 0.0, until);
+            next.swept = swept + winding::sweep(&dense, C::PLACE, &heading, until);
         }
         if let Some(exit) = bounds.inverse_exit {
             if depth < exit {
@@ -176,6 +179,9 @@ where
             refused = false;
         }
         (y, slope, swept) = (next.y, end_slope, next.swept);
+        if chart.settle(&mut y) {
+            slope = chart.derivative(&y);
+        }
     }
 }
 

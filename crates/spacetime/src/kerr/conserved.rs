@@ -21,7 +21,8 @@ pub(crate) fn carter(spin: f64, energy: f64, state: &Inverted<f64>) -> f64 {
     let cos = state.n[2] * inverse_scaled_radius(spin, state);
     let cos2 = cos * cos;
     let [jx, jy, _] = state.j;
-    jx * jx + jy * jy
+    jx * jx
+        + jy * jy
         + s2 * (cos2 * (p[0] * p[0] + p[1] * p[1] - energy * energy) - (1.0 - cos2) * p[2] * p[2])
 }
 

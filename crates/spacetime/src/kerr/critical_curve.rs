@@ -53,8 +53,13 @@ impl CriticalCurve {
         // Exact zeros at the pole and the equator, where sin and cos round.
         let sin_inclination = if inclination == PI { 0.0 } else { inclination.sin() };
         let cos_inclination = if inclination == PI / 2.0 { 0.0 } else { inclination.cos() };
-        let mut curve =
-            Self { spin, sin_inclination, cos_inclination, x0: zero_angular_momentum(spin), y_range: [0.0; 2] };
+        let mut curve = Self {
+            spin,
+            sin_inclination,
+            cos_inclination,
+            x0: zero_angular_momentum(spin),
+            y_range: [0.0; 2],
+        };
         let orbits = Orbits::new(spin);
         let ends = [-2.0 / orbits.photon_prograde.sqrt(), 2.0 / orbits.photon_retrograde.sqrt()];
         curve.y_range = [curve.end(-1.0, ends[0]), curve.end(1.0, ends[1])];

@@ -59,11 +59,7 @@ impl<S: Scalar> Field<S> {
             inverse_r,
             inverse_sigma: half_sigma.recip() * 0.5,
             weight,
-            l: [
-                r.mul_add(x, spin * y) * weight,
-                r.mul_add(y, -(spin * x)) * weight,
-                z * inverse_r,
-            ],
+            l: [r.mul_add(x, spin * y) * weight, r.mul_add(y, -(spin * x)) * weight, z * inverse_r],
         }
     }
 
@@ -165,10 +161,7 @@ impl Metric for Kerr {
         let precession = whirl * s;
         let tilt = s * self.spin;
         let mixed = tilt * whirl * field.inverse_r;
-        let bulge = tilt
-            * n[2]
-            * field.inverse_r
-            * (radial * field.inverse_sigma - oblate * field.inverse_r);
+        let bulge = tilt * n[2] * field.inverse_r * (radial * field.inverse_sigma - oblate * field.inverse_r);
         let torque = |i: usize| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i];
         Inverted {
             w: w * lengthening - q,

@@ -51,12 +51,7 @@ impl Metric for Schwarzschild {
     fn inverted_rate<S: Scalar>(&self, energy: S, state: &Inverted<S>) -> Inverted<S> {
         let Inverted { w, n, q, j } = *state;
         let l = energy + q;
-        Inverted {
-            w: w * l * 2.0 - q,
-            n: cross(&j, &n),
-            q: w * dot(&j, &j) - l * l,
-            j: [w.constant(0.0); 3],
-        }
+        Inverted { w: w * l * 2.0 - q, n: cross(&j, &n), q: w * dot(&j, &j) - l * l, j: [w.constant(0.0); 3] }
     }
 
     fn time_offset(&self, r: f64) -> f64 {

@@ -20,7 +20,12 @@ use crate::metric::{Inverted, Kerr, Metric};
 ///   q = [p_r ϖ̂² + p_θ s²u³ sinθ cosθ + L s u²]/(σ̂ρ̂),
 ///   J = s²u cosθ ϖ̂ sinθ (p_r/σ̂ + L s u²/(σ̂ϖ̂²)) (sin ψ, −cos ψ, 0)
 ///       + p_θ (ϖ̂/σ̂)(−sin ψ, cos ψ, 0) + L ẑ − (L/sinθ)(cosθ/ϖ̂)(cos ψ, sin ψ, 0).
-pub fn impact_ray(spin: Option<f64>, inclination: f64, r: f64, impact: [f64; 2]) -> Result<Ray, ObserverError> {
+pub fn impact_ray(
+    spin: Option<f64>,
+    inclination: f64,
+    r: f64,
+    impact: [f64; 2],
+) -> Result<Ray, ObserverError> {
     check(spin, &Place { r, theta: inclination, phi: 0.0 }, &Motion::Static)?;
     let [alpha, beta] = impact;
     let (s, mass) = spin.map_or((0.0, 0.0), |a| (-a, 1.0));

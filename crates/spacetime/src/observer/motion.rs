@@ -44,7 +44,9 @@ pub enum ObserverError {
         limit: f64,
     },
     /// Only falling observers are inside the horizon.
-    #[error("r = {r} M is not outside the horizon at r = {horizon:.6} M, where only a falling observer can be")]
+    #[error(
+        "r = {r} M is not outside the horizon at r = {horizon:.6} M, where only a falling observer can be"
+    )]
     InsideHorizon {
         /// Asked radius.
         r: f64,
@@ -66,7 +68,9 @@ pub enum ObserverError {
         degrees: f64,
     },
     /// No circular timelike geodesic here.
-    #[error("no circular orbit of matter about +z exists at r = {r} M: the photon orbit is at r = {photon:.6} M")]
+    #[error(
+        "no circular orbit of matter about +z exists at r = {r} M: the photon orbit is at r = {photon:.6} M"
+    )]
     NoOrbit {
         /// Asked radius.
         r: f64,

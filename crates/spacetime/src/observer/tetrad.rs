@@ -98,9 +98,13 @@ impl Observer {
         let falling = || fall(metric, s, &position, r, sense);
         let boosted = |rest: Vec4<f64>, v: &[f64; 3]| {
             let base = frame(rest);
-            unit(&g, std::array::from_fn(|i| {
-                base.velocity[i] + sense * (v[0] * base.axes[0][i] + v[1] * base.axes[1][i] + v[2] * base.axes[2][i])
-            }))
+            unit(
+                &g,
+                std::array::from_fn(|i| {
+                    base.velocity[i]
+                        + sense * (v[0] * base.axes[0][i] + v[1] * base.axes[1][i] + v[2] * base.axes[2][i])
+                }),
+            )
         };
         frame(match motion {
             Motion::Static => spinning(0.0),
@@ -139,7 +143,8 @@ impl Observer {
     /// Components along (e_r, e_θ, e_φ) of the unit vector towards a point of the chart: the
     /// straight line of its coordinates at an instant of its time.
     pub fn direction_to(&self, point: Vec3<f64>) -> Vec3<f64> {
-        let step = [0.0, point[0] - self.position[0], point[1] - self.position[1], point[2] - self.position[2]];
+        let step =
+            [0.0, point[0] - self.position[0], point[1] - self.position[1], point[2] - self.position[2]];
         let lowered = contract(&self.metric, &step);
         let parts: Vec3<f64> = std::array::from_fn(|k| pair(&lowered, &self.axes[k]));
         let length = parts.iter().map(|c| c * c).sum::<f64>().sqrt();

@@ -56,14 +56,21 @@ impl<S: Scalar> Flow<S, 6> for Photon {
         } else {
             u.constant(0.0)
         };
-        [du, u * b + u2 * (3.0 * c) - u2 * u * (2.0 * q), dmu, mu * b - mu2 * mu * (2.0 * s * s), around, time]
+        [
+            du,
+            u * b + u2 * (3.0 * c) - u2 * u * (2.0 * q),
+            dmu,
+            mu * b - mu2 * mu * (2.0 * s * s),
+            around,
+            time,
+        ]
     }
 
     fn inverse_scale(&self, y: &[S; 6]) -> [S; 6] {
         let one = y[0].constant(1.0);
-        let zero = y[0].constant(0.0);
-        // Time far away is large and decides nothing.
-        [one, one, one, one, one, zero]
+        // Time counts against r, as far as r = 1000.
+        let of_time = S::select(y[0].less(y[0].constant(1e-3)), y[0].constant(0.0), y[0] * 0.1);
+        [one, one, one, one, one, if self.timed { of_time } else { y[0].constant(0.0) }]
     }
 }
 

@@ -13,26 +13,14 @@ pub(super) fn from_kerr_schild(spin: Option<f64>, [x, y, z]: [f64; 3]) -> Place 
     // r⁴ − (R² − a²) r² − a² z² = 0, by the form of the root that does not cancel.
     let b = x * x + y * y + z * z - a * a;
     let root = b.hypot(2.0 * a * z);
-    let r = if b >= 0.0 {
-        (0.5 * (b + root)).sqrt()
-    } else {
-        (a * z).abs() / (0.5 * (root - b)).sqrt()
-    };
-    let theta = if r == 0.0 {
-        0.0
-    } else {
-        (x.hypot(y) / r.hypot(a)).atan2(z / r)
-    };
+    let r = if b >= 0.0 { (0.5 * (b + root)).sqrt() } else { (a * z).abs() / (0.5 * (root - b)).sqrt() };
+    let theta = if r == 0.0 { 0.0 } else { (x.hypot(y) / r.hypot(a)).atan2(z / r) };
     let offset = match spin {
         None => 0.0,
         Some(a) if r > Kerr::new(a).horizon() => Kerr::new(-a).azimuth_offset(r),
         Some(a) => a.atan2(r),
     };
-    Place {
-        r,
-        theta,
-        phi: y.atan2(x) - offset,
-    }
+    Place { r, theta, phi: y.atan2(x) - offset }
 }
 
 #[cfg(test)]
@@ -42,21 +30,8 @@ mod tests {
 
     #[test]
     fn an_observer_stands_at_the_point() {
-        for spin in [
-            None,
-            Some(0.0),
-            Some(0.3),
-            Some(-0.99),
-            Some(0.7),
-            Some(1.0),
-            Some(-1.0),
-        ] {
-            for direction in [
-                [1.0, 0.0, 0.0],
-                [-0.3, 0.4, 0.6],
-                [0.1, -0.8, -0.2],
-                [0.0, 0.0, 1.0],
-            ] {
+        for spin in [None, Some(0.0), Some(0.3), Some(-0.99), Some(0.7), Some(1.0), Some(-1.0)] {
+            for direction in [[1.0, 0.0, 0.0], [-0.3, 0.4, 0.6], [0.1, -0.8, -0.2], [0.0, 0.0, 1.0]] {
                 for length in [1.9, 2.5, 30.0, 1e6] {
                     let point = direction.map(|c| c * length);
                     let place = from_kerr_schild(spin, point);
@@ -83,13 +58,6 @@ mod tests {
     fn the_centre_has_a_place() {
         assert_eq!(from_kerr_schild(Some(0.9), [0.3, 0.2, 0.0]).r, 0.0);
         let centre = from_kerr_schild(None, [0.0; 3]);
-        assert_eq!(
-            centre,
-            Place {
-                r: 0.0,
-                theta: 0.0,
-                phi: 0.0
-            }
-        );
+        assert_eq!(centre, Place { r: 0.0, theta: 0.0, phi: 0.0 });
     }
 }

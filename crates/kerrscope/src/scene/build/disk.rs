@@ -12,10 +12,9 @@ impl Builder<'_> {
             // A disk that is put away keeps its picture.
             DiskModel::None => return None,
             DiskModel::Ring => {
-                for (key, given) in [
-                    ("disk.image", file.image.is_some()),
-                    ("disk.mapping", file.mapping.is_some()),
-                ] {
+                for (key, given) in
+                    [("disk.image", file.image.is_some()), ("disk.mapping", file.mapping.is_some())]
+                {
                     if given {
                         self.unused(key, "disk.model", "image");
                     }
@@ -33,7 +32,7 @@ impl Builder<'_> {
             tilt: file.tilt.to_radians(),
             node: file.node.to_radians(),
             surface,
-            color: file.color.unwrap_or_default(),
+            color: file.color,
             brightness: file.brightness,
             opacity: file.opacity,
         })
@@ -59,30 +58,16 @@ impl Builder<'_> {
             let horizon = readable(horizon);
             self.fault(
                 &["disk.inner", "spacetime.spin", "spacetime.name"],
-                format!(
-                    "the disk's inner edge {inner} is not outside the horizon at r = {horizon}"
-                ),
+                format!("the disk's inner edge {inner} is not outside the horizon at r = {horizon}"),
                 format!("give `disk.inner` more than {horizon}, or \"isco\""),
             );
         }
         if inner >= file.outer {
             let shown = readable(inner);
-            let named = if let Inner::Isco(_) = file.inner {
-                ", the isco"
-            } else {
-                ""
-            };
+            let named = if let Inner::Isco(_) = file.inner { ", the isco" } else { "" };
             self.fault(
-                &[
-                    "disk.outer",
-                    "disk.inner",
-                    "spacetime.spin",
-                    "spacetime.name",
-                ],
-                format!(
-                    "the disk's outer edge {} is not outside its inner edge {shown}{named}",
-                    file.outer
-                ),
+                &["disk.outer", "disk.inner", "spacetime.spin", "spacetime.name"],
+                format!("the disk's outer edge {} is not outside its inner edge {shown}{named}", file.outer),
                 format!("give `disk.outer` more than {shown}, or a smaller `disk.inner`"),
             );
         }

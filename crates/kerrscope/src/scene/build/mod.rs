@@ -29,12 +29,7 @@ pub(super) fn build(
     faults: &mut Collector,
 ) -> Scene {
     let file = typed.complete();
-    let mut builder = Builder {
-        root,
-        removed,
-        folder,
-        faults,
-    };
+    let mut builder = Builder { root, removed, folder, faults };
     let spacetime = builder.spacetime(&file.spacetime);
     let observer = builder.observer(&file, spacetime);
     Scene {
@@ -71,18 +66,12 @@ impl Builder<'_> {
                 .strip_prefix(outer)
                 .is_some_and(|rest| outer.is_empty() || rest.is_empty() || rest.starts_with('.'))
         };
-        let doubtful = |key: &str| {
-            self.removed
-                .iter()
-                .any(|removed| within(key, removed) || within(removed, key))
-        };
+        let doubtful =
+            |key: &str| self.removed.iter().any(|removed| within(key, removed) || within(removed, key));
         if keys.iter().any(|key| doubtful(key)) {
             return;
         }
-        let node = keys
-            .iter()
-            .find_map(|key| self.root.at(key))
-            .unwrap_or(self.root);
+        let node = keys.iter().find_map(|key| self.root.at(key)).unwrap_or(self.root);
         let place = node.place.clone();
         self.faults.push(&place, || (what.into(), mend.into()));
     }
@@ -91,10 +80,9 @@ impl Builder<'_> {
         let spin = file.spin.unwrap_or_default();
         let (hole, spacetime) = match file.name {
             SpacetimeName::Kerr => return Spacetime::Kerr { spin },
-            SpacetimeName::Schwarzschild => (
-                "a Schwarzschild black hole does not turn",
-                Spacetime::Schwarzschild,
-            ),
+            SpacetimeName::Schwarzschild => {
+                ("a Schwarzschild black hole does not turn", Spacetime::Schwarzschild)
+            }
             SpacetimeName::Minkowski => ("flat space does not turn", Spacetime::Minkowski),
         };
         if spin != 0.0 {
@@ -122,17 +110,11 @@ impl Builder<'_> {
                     let [below, above] = [below, above].map(|lines| 90.0 / f64::from(lines));
                     self.fault(
                         &["sky.spacing", "sky.kind"],
-                        format!(
-                            "lines {}° apart do not divide 90° into equal parts",
-                            file.spacing
-                        ),
+                        format!("lines {}° apart do not divide 90° into equal parts", file.spacing),
                         format!("give a divisor of 90 such as {below} or {above}"),
                     );
                 }
-                SkyPicture::Grid {
-                    color,
-                    spacing: file.spacing.to_radians(),
-                }
+                SkyPicture::Grid { color, spacing: file.spacing.to_radians() }
             }
             file::SkyKind::Panorama => SkyPicture::Panorama {
                 path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
@@ -140,14 +122,10 @@ impl Builder<'_> {
             },
         };
         // The word for no sky leaves the picture unused on purpose; others may be a slip.
-        if file.image.is_some() && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid)
-        {
+        if file.image.is_some() && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid) {
             self.unused("sky.image", "sky.kind", "panorama");
         }
-        Sky {
-            picture,
-            brightness: file.brightness,
-        }
+        Sky { picture, brightness: file.brightness }
     }
 
     fn render(&mut self, file: &file::Render) -> Render {
@@ -211,9 +189,7 @@ impl Builder<'_> {
             Ok(about) if about.is_file() => return path,
             Ok(about) if about.is_dir() => "is a folder, not a picture".to_owned(),
             Ok(_) => "is not a regular file".to_owned(),
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
-                "does not exist".to_owned()
-            }
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => "does not exist".to_owned(),
             Err(error) => format!("cannot be read: {error}"),
         };
         let folder = match self.folder.to_string_lossy() {

@@ -7,22 +7,14 @@ use crate::scene::file::{self, MotionName, RelativeTo, SceneFile, ScreenKind};
 use crate::scene::valid::{Observer, Spacetime};
 
 /// The keys that fix where the observer is.
-const PLACE: [&str; 4] = [
-    "observer.distance",
-    "observer.position",
-    "observer.inclination",
-    "observer.azimuth",
-];
+const PLACE: [&str; 4] =
+    ["observer.distance", "observer.position", "observer.inclination", "observer.azimuth"];
 
 impl Builder<'_> {
     pub(super) fn observer(&mut self, file: &SceneFile, spacetime: Spacetime) -> Observer {
         let place = self.place(&file.observer, spacetime);
         if place.r.is_infinite() && file.screen.kind != ScreenKind::Impact {
-            let kind = if file.screen.kind == ScreenKind::Pinhole {
-                "pinhole"
-            } else {
-                "angular"
-            };
+            let kind = if file.screen.kind == ScreenKind::Pinhole { "pinhole" } else { "angular" };
             self.fault(
                 &["observer.distance", "screen.kind"],
                 format!(
@@ -39,10 +31,7 @@ impl Builder<'_> {
             file::Motion::Named(MotionName::Orbit) => Motion::Orbit,
             file::Motion::Named(MotionName::Fall) => Motion::Fall,
             file::Motion::Velocity(velocity) => Motion::Velocity(*velocity),
-            file::Motion::Relative(file::Velocity {
-                velocity,
-                relative_to,
-            }) => match relative_to {
+            file::Motion::Relative(file::Velocity { velocity, relative_to }) => match relative_to {
                 RelativeTo::Zamo => Motion::Velocity(*velocity),
                 RelativeTo::Fall => Motion::VelocityFromFall(*velocity),
             },
@@ -59,23 +48,14 @@ impl Builder<'_> {
                 phi: file.azimuth.unwrap_or_default().to_radians(),
             };
         };
-        let others = [
-            ("distance", file.distance),
-            ("inclination", file.inclination),
-            ("azimuth", file.azimuth),
-        ];
-        let others: Vec<String> = others
-            .iter()
-            .filter(|(_, value)| value.is_some())
-            .map(|(key, _)| format!("`{key}`"))
-            .collect();
+        let others =
+            [("distance", file.distance), ("inclination", file.inclination), ("azimuth", file.azimuth)];
+        let others: Vec<String> =
+            others.iter().filter(|(_, value)| value.is_some()).map(|(key, _)| format!("`{key}`")).collect();
         if !others.is_empty() {
             self.fault(
                 &["observer.position"],
-                format!(
-                    "`observer.position` and {} both say where the observer is",
-                    others.join(", ")
-                ),
+                format!("`observer.position` and {} both say where the observer is", others.join(", ")),
                 "keep either `position`, or `distance`, `inclination` and `azimuth`",
             );
         }
@@ -83,8 +63,7 @@ impl Builder<'_> {
     }
 
     fn motion(&mut self, spacetime: Spacetime, place: Place, motion: Motion) {
-        let with =
-            |first: &[&'static str]| [first, &PLACE, &["observer.motion"], &SPACETIME].concat();
+        let with = |first: &[&'static str]| [first, &PLACE, &["observer.motion"], &SPACETIME].concat();
         if spacetime == Spacetime::Minkowski && place.r == 0.0 {
             self.fault(
                 &with(&[]),
@@ -107,9 +86,8 @@ impl Builder<'_> {
             }
             ObserverError::InsideHorizon { horizon, .. } => {
                 let horizon = readable(*horizon);
-                let mend = format!(
-                    "move the observer beyond r = {horizon}, or set `observer.motion = \"fall\"`"
-                );
+                let mend =
+                    format!("move the observer beyond r = {horizon}, or set `observer.motion = \"fall\"`");
                 (with(&[]), mend)
             }
             ObserverError::InsideInnerHorizon { inner_horizon, .. } => {
@@ -124,18 +102,13 @@ impl Builder<'_> {
                 (with(&["observer.motion"]), mend.to_owned())
             }
             ObserverError::NoOrbit { photon, .. } => {
-                let mend = format!(
-                    "move the observer beyond r = {}, or choose another motion",
-                    readable(*photon)
-                );
+                let mend =
+                    format!("move the observer beyond r = {}, or choose another motion", readable(*photon));
                 (with(&["observer.motion"]), mend)
             }
             ObserverError::FasterThanLight { .. } => {
                 let mend = "give a velocity [r, θ, φ] in units of c whose length is below 1";
-                (
-                    vec!["observer.motion.velocity", "observer.motion"],
-                    mend.to_owned(),
-                )
+                (vec!["observer.motion.velocity", "observer.motion"], mend.to_owned())
             }
             ObserverError::NothingToOrbit => {
                 let mend = "choose another motion, such as \"static\"";

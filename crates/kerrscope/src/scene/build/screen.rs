@@ -7,12 +7,7 @@ use crate::scene::file;
 use crate::scene::valid::{Screen, ScreenKind, Spacetime};
 
 impl Builder<'_> {
-    pub(super) fn screen(
-        &mut self,
-        file: &file::Screen,
-        spacetime: Spacetime,
-        place: Place,
-    ) -> Screen {
+    pub(super) fn screen(&mut self, file: &file::Screen, spacetime: Spacetime, place: Place) -> Screen {
         let height = file.field_of_view.unwrap_or_default();
         let mut too_high = |what: &str, mend: &str| {
             let what = format!("{what} cannot be {height}° high");
@@ -24,37 +19,23 @@ impl Builder<'_> {
                     let mend = "give less than 180, or choose `screen.kind = \"angular\"`";
                     too_high("the flat picture of a pinhole", mend);
                 }
-                ScreenKind::Pinhole {
-                    height: height.to_radians(),
-                }
+                ScreenKind::Pinhole { height: height.to_radians() }
             }
             file::ScreenKind::Angular => {
                 if height > 180.0 {
                     too_high("an angular picture", "give 180 or less");
                 }
-                ScreenKind::Angular {
-                    height: height.to_radians(),
-                }
+                ScreenKind::Angular { height: height.to_radians() }
             }
             file::ScreenKind::Impact => ScreenKind::Impact { height },
         };
         if let Some(point) = file.look_at {
             self.look_at(file.kind, point, spacetime, place);
         }
-        Screen {
-            kind,
-            roll: file.roll.to_radians(),
-            look_at: file.look_at,
-        }
+        Screen { kind, roll: file.roll.to_radians(), look_at: file.look_at }
     }
 
-    fn look_at(
-        &mut self,
-        kind: file::ScreenKind,
-        point: [f64; 3],
-        spacetime: Spacetime,
-        place: Place,
-    ) {
+    fn look_at(&mut self, kind: file::ScreenKind, point: [f64; 3], spacetime: Spacetime, place: Place) {
         if kind == file::ScreenKind::Impact {
             self.fault(
                 &["screen.look_at", "screen.kind"],
@@ -68,10 +49,7 @@ impl Builder<'_> {
             return;
         };
         let eye = observer.position();
-        let distance = (0..3)
-            .map(|i| (point[i] - eye[i]).powi(2))
-            .sum::<f64>()
-            .sqrt();
+        let distance = (0..3).map(|i| (point[i] - eye[i]).powi(2)).sum::<f64>().sqrt();
         if distance <= 1e-9 * place.r.max(1.0) {
             self.fault(
                 &[

@@ -3,9 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::Mapping;
-
-const RING_COLOR: [f64; 3] = [1.0, 0.45, 0.12];
+use crate::disk::Mapping;
 
 /// A thin disk around the hole that turns about +z.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -25,15 +23,9 @@ pub struct Disk {
     /// Azimuth in degrees at which the disk rises through the equatorial plane.
     #[schemars(range(min = -1e6, max = 1e6))]
     pub node: f64,
-    /// Colour [red, green, blue] in sRGB: of a "ring", orange if not given, or what the white of
-    /// an "image" becomes, white if not given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(
-        with = "[f64; 3]",
-        inner(range(min = 0, max = 1)),
-        extend("default" = RING_COLOR)
-    )]
-    pub color: Option<[f64; 3]>,
+    /// Filter [red, green, blue] in sRGB that the disk's own colours are seen through.
+    #[schemars(inner(range(min = 0, max = 1)))]
+    pub color: [f64; 3],
     /// Factor on the disk's light.
     #[schemars(range(min = 0, max = 1e12))]
     pub brightness: f64,
@@ -57,7 +49,7 @@ pub struct Disk {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DiskModel {
-    /// A ring of streaks, drawn from `color` and `seed`.
+    /// A ring of orange bands, drawn from `seed`.
     #[default]
     Ring,
     /// The picture `image`.
@@ -92,7 +84,7 @@ impl Default for Disk {
             outer: 16.0,
             tilt: 0.0,
             node: 0.0,
-            color: None,
+            color: [1.0; 3],
             brightness: 1.0,
             opacity: 1.0,
             seed: 1,
@@ -104,15 +96,7 @@ impl Default for Disk {
 
 impl Disk {
     pub(super) fn complete(&self) -> Self {
-        let (color, mapping) = match self.model {
-            DiskModel::Ring => (Some(RING_COLOR), None),
-            DiskModel::Image => (Some([1.0; 3]), Some(Mapping::default())),
-            DiskModel::None => (None, None),
-        };
-        Self {
-            color: self.color.or(color),
-            mapping: self.mapping.or(mapping),
-            ..self.clone()
-        }
+        let mapping = (self.model == DiskModel::Image).then(Mapping::default);
+        Self { mapping: self.mapping.or(mapping), ..self.clone() }
     }
 }

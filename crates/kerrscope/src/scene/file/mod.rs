@@ -74,9 +74,6 @@ impl SceneFile {
     /// `x-infinity` marks the numbers that may be `inf`, which JSON cannot say.
     pub fn schema() -> serde_json::Value {
         let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
-        settings
-            .into_generator()
-            .into_root_schema_for::<Self>()
-            .to_value()
+        settings.into_generator().into_root_schema_for::<Self>().to_value()
     }
 }

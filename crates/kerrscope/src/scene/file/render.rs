@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::scene::{Engine, Method, Tone};
+use crate::display::Tone;
+use crate::scene::{Engine, Method};
 
 /// The step of "rk4" if none is given.
 pub(in crate::scene) const RK4_STEP: f64 = 0.1;
@@ -66,10 +67,7 @@ impl Default for Render {
 impl Render {
     pub(super) fn complete(&self) -> Self {
         let default = (self.method == Method::Rk4).then_some(RK4_STEP);
-        Self {
-            step: self.step.or(default),
-            ..self.clone()
-        }
+        Self { step: self.step.or(default), ..self.clone() }
     }
 }
 
@@ -97,10 +95,6 @@ pub struct Display {
 
 impl Default for Display {
     fn default() -> Self {
-        Self {
-            exposure: 0.0,
-            tone: Tone::default(),
-            bits: 8,
-        }
+        Self { exposure: 0.0, tone: Tone::default(), bits: 8 }
     }
 }

@@ -46,14 +46,7 @@ pub enum ScreenKind {
 
 impl Screen {
     pub(super) fn complete(&self) -> Self {
-        let height = if self.kind == ScreenKind::Impact {
-            IMPACT
-        } else {
-            ANGLE
-        };
-        Self {
-            field_of_view: self.field_of_view.or(Some(height)),
-            ..self.clone()
-        }
+        let height = if self.kind == ScreenKind::Impact { IMPACT } else { ANGLE };
+        Self { field_of_view: self.field_of_view.or(Some(height)), ..self.clone() }
     }
 }

@@ -47,7 +47,7 @@ impl Default for Sky {
     fn default() -> Self {
         Self {
             kind: SkyKind::default(),
-            color: [0.3, 0.5, 0.8],
+            color: [0.2, 0.34, 0.55],
             brightness: 1.0,
             spacing: 15.0,
             image: None,

@@ -32,14 +32,7 @@ pub enum SpacetimeName {
 
 impl Spacetime {
     pub(super) fn complete(&self) -> Self {
-        let spin = if self.name == SpacetimeName::Kerr {
-            KERR_SPIN
-        } else {
-            0.0
-        };
-        Self {
-            name: self.name,
-            spin: Some(self.spin.unwrap_or(spin)),
-        }
+        let spin = if self.name == SpacetimeName::Kerr { KERR_SPIN } else { 0.0 };
+        Self { name: self.name, spin: Some(self.spin.unwrap_or(spin)) }
     }
 }
