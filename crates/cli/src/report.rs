@@ -32,11 +32,12 @@ impl Failure {
                 for fault in &faults {
                     eprint!("{}", drawn(fault));
                 }
-                let count = faults.iter().count();
-                eprintln!(
-                    "{count} fault{} in the scene; nothing was done.",
-                    if count == 1 { "" } else { "s" }
-                );
+                let count = faults.len() + faults.omitted();
+                let omitted = match faults.omitted() {
+                    0 => String::new(),
+                    n => format!(" ({n} more than are shown)"),
+                };
+                eprintln!("{count} fault{}{omitted}; nothing was done.", if count == 1 { "" } else { "s" });
                 ExitCode::from(2)
             }
             Self::Input(message) => {

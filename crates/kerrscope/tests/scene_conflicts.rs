@@ -341,3 +341,12 @@ fn no_fault_follows_from_another() {
         ],
     );
 }
+
+#[test]
+fn fixed_steps_do_not_come_from_infinity() {
+    let text = "[observer]\ndistance = inf\n[screen]\nkind = \"impact\"\n[render]\nmethod = \"rk4\"";
+    let faults = Scene::from_toml(text, Path::new("")).unwrap_err();
+    assert_eq!(faults.len(), 1, "{faults}");
+    assert!(faults[0].message.contains("cannot come in from infinity"));
+    assert_eq!(faults[0].line_column(), Some((6, 10)));
+}

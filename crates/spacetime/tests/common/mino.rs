@@ -20,6 +20,9 @@ pub struct Photon {
     pub eta: f64,
     /// Whether to integrate t, which is infinite for a camera at infinity.
     pub timed: bool,
+    /// A photon that falls into the hole, not reversed but followed backwards: φ is then that of
+    /// ingoing coordinates, regular at the horizon.
+    pub falling: bool,
 }
 
 impl Photon {
@@ -49,7 +52,12 @@ impl<S: Scalar> Flow<S, 6> for Photon {
         let [u, du, mu, dmu, _, _] = *y;
         let (u2, mu2) = (u * u, mu * mu);
         let delta = u * -2.0 + u2 * (s * s) + 1.0;
-        let around = (-mu2 + 1.0).recip() * lambda + (u * 2.0 - u2 * (s * lambda)) * s / delta;
+        let around = if self.falling {
+            // φ̃′ = λ/(1 − μ²) − s + sCu²/(1 + (s² − sλ)u² + √U), and u′ = −√U backwards.
+            let inner = u2 * (s * s - s * lambda) + 1.0 - du;
+            -((-mu2 + 1.0).recip() * lambda - s + u2 * (s * c) / inner)
+        } else {
+            (-mu2 + 1.0).recip() * lambda + (u * 2.0 - u2 * (s * lambda)) * s / delta;
         // 2r(r² + s² − sλ)/Δ = 2[1 + (s² − sλ)u²]/(u Δ/r²).
         let time = if self.timed {
             u2.recip() + mu2 * (s * s) + (u2 * (s * s - s * lambda) + 1.0) * 2.0 / (u * delta)

@@ -4,6 +4,7 @@
 #![allow(dead_code)]
 
 pub mod mino;
+pub mod orbit;
 
 use kerrscope_spacetime::geodesic::{Path, Query, Ray, Tracer};
 use kerrscope_spacetime::observer::impact_ray;

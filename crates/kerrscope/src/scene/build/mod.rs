@@ -7,6 +7,8 @@ mod screen;
 
 use std::path::{Path, PathBuf};
 
+use kerrscope_spacetime::observer::Place;
+
 use super::fault::{Collector, one_line};
 use super::file::{self, SceneFile, SpacetimeName};
 use super::tree::Node;
@@ -38,7 +40,7 @@ pub(super) fn build(
         screen: builder.screen(&file.screen, spacetime, observer.place),
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
-        render: builder.render(&file.render),
+        render: builder.render(&file.render, observer.place),
         display: Display {
             exposure: file.camera.display.exposure,
             tone: file.camera.display.tone,
@@ -128,7 +130,7 @@ impl Builder<'_> {
         Sky { picture, brightness: file.brightness }
     }
 
-    fn render(&mut self, file: &file::Render) -> Render {
+    fn render(&mut self, file: &file::Render, place: Place) -> Render {
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
         if rays > MAX_RAYS {
             let pixels = u64::from(file.width) * u64::from(file.height);
@@ -148,6 +150,13 @@ impl Builder<'_> {
                 &["render.step", "render.method"],
                 "`render.step` is for `method = \"rk4\"` only; the others choose their steps",
                 "remove it and use `render.tolerance`, or choose `render.method = \"rk4\"`",
+            );
+        }
+        if file.method == Method::Rk4 && place.r.is_infinite() {
+            self.fault(
+                &["render.method", "observer.distance"],
+                "`method = \"rk4\"` takes steps of a fixed length and cannot come in from infinity",
+                "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
         Render {
