@@ -141,7 +141,7 @@ fn separated_equations_from_infinity() {
         let eta = (alpha * alpha - spin * spin) * cos * cos + beta * beta;
         let ray = impact(spin, inclination, f64::INFINITY, alpha, beta);
         let path = follow(&integrator(spin), &ray, &Query::default());
-        let photon = Photon { spin: -spin, lambda, eta, timed: false };
+        let photon = Photon { spin: -spin, lambda, eta, timed: false, falling: false };
         compare(spin, &ray, &path, photon, [0.0, cos], [true, beta > 0.0], &mut worst);
     }
     worst.below(5e-12, "from infinity");
@@ -159,7 +159,13 @@ fn separated_equations_from_cameras() {
         let [out, down, along] = random.direction();
         let ray = observer.ray([out, down, along]);
         let conserved = ray.conserved(spin);
-        let photon = Photon { spin: -spin, lambda: -conserved.lambda, eta: conserved.eta, timed: true };
+        let photon = Photon {
+            spin: -spin,
+            lambda: -conserved.lambda,
+            eta: conserved.eta,
+            timed: true,
+            falling: false,
+        };
         // The separated equations know neither poles nor a start at a turning point.
         if photon.lambda.abs() < 0.05 || out.abs() < 1e-3 || down.abs() < 1e-3 {
             continue;

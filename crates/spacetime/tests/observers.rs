@@ -34,7 +34,8 @@ struct Frame {
 impl Frame {
     fn new(spin: f64, observer: &Observer) -> Self {
         let unit = |k: usize, length: f64| std::array::from_fn(|i| if i == k { length } else { 0.0 });
-        let rays: [[Ray; 2]; 3] = std::array::from_fn(|k| [observer.ray(unit(k, 1.0)), observer.ray(unit(k, -1.0))]);
+        let rays: [[Ray; 2]; 3] =
+            std::array::from_fn(|k| [observer.ray(unit(k, 1.0)), observer.ray(unit(k, -1.0))]);
         let side = rays[0][0].side;
         let sense = if side == Side::Reversed { 0.5 } else { -0.5 };
         let pairs = rays.map(|pair| pair.map(|ray| covector(&ray)));
@@ -80,7 +81,11 @@ fn motions(spin: f64, place: &Place) -> Vec<Motion> {
 fn places(random: &mut Random, spin: f64) -> Place {
     let (outer, inner) = horizons(spin);
     let inside = outer - inner > 0.1 && random.within(0.0, 1.0) < 0.3;
-    let r = if inside { random.within((inner + 0.05).max(0.4), outer - 0.01) } else { outer * random.scale(1.02, 1e6) };
+    let r = if inside {
+        random.within((inner + 0.05).max(0.4), outer - 0.01)
+    } else {
+        outer * random.scale(1.02, 1e6)
+    };
     let theta = random.within(0.0, PI);
     let theta = random.pick(&[theta, FRAC_PI_2, 0.0, PI]);
     Place { r, theta, phi: random.within(-4.0, 4.0) }
@@ -91,7 +96,8 @@ fn places(random: &mut Random, spin: f64) -> Place {
 #[test]
 fn tetrads_are_orthonormal() {
     let mut random = Random::new(71);
-    let (mut frames, mut near, mut rays, mut inside) = (Worst::default(), Worst::default(), Worst::default(), 0);
+    let (mut frames, mut near, mut rays, mut inside) =
+        (Worst::default(), Worst::default(), Worst::default(), 0);
     for _ in 0..3000 {
         let spin = random.pick(&SPINS);
         let place = places(&mut random, spin);
@@ -266,7 +272,9 @@ fn four_velocities() {
             let Ground { r, delta, .. } = Ground::new(spin, &place);
             let fall = -(2.0 * r * (r * r + s * s)).sqrt() / delta;
             let cancel = 1.0 + 2.0 * r / delta.abs();
-            worst.see(apart(&got, &[1.0, fall, 0.0, 0.0], r) / cancel, || format!("inside, a = {spin}, {place:?}"));
+            worst.see(apart(&got, &[1.0, fall, 0.0, 0.0], r) / cancel, || {
+                format!("inside, a = {spin}, {place:?}")
+            });
         }
     }
     worst.below(5e-15, "four-velocities");
@@ -283,10 +291,9 @@ fn velocities() {
         let place = places(&mut random, spin);
         let speed = random.within(0.0, 0.95);
         let v = random.direction().map(|c| c * speed);
-        for (rest, moving) in [
-            (Motion::ZeroAngularMomentum, Motion::Velocity(v)),
-            (Motion::Fall, Motion::VelocityFromFall(v)),
-        ] {
+        for (rest, moving) in
+            [(Motion::ZeroAngularMomentum, Motion::Velocity(v)), (Motion::Fall, Motion::VelocityFromFall(v))]
+        {
             let Ok(rest) = Observer::new(Some(spin), place, rest) else { continue };
             let moving = Observer::new(Some(spin), place, moving).unwrap();
             let (base, frame) = (Frame::new(spin, &rest), Frame::new(spin, &moving));
@@ -457,7 +464,10 @@ fn impossible_observers() {
     );
     let horizon = horizons(0.9).0;
     for motion in [Motion::ZeroAngularMomentum, Motion::Static, Motion::Velocity([0.0; 3]), Motion::Orbit] {
-        assert_eq!(refuse(Some(0.9), place(1.2, FRAC_PI_2), motion), ObserverError::InsideHorizon { r: 1.2, horizon });
+        assert_eq!(
+            refuse(Some(0.9), place(1.2, FRAC_PI_2), motion),
+            ObserverError::InsideHorizon { r: 1.2, horizon }
+        );
     }
     let inner_horizon = horizons(0.9).1;
     assert_eq!(
@@ -468,7 +478,10 @@ fn impossible_observers() {
     assert!(check(Some(0.0), &place(1e-3, 1.0), &Motion::Fall).is_ok());
     assert!(matches!(refuse(Some(0.9), place(6.0, 1.0), Motion::Orbit), ObserverError::OrbitOffPlane { .. }));
     let photon = Orbits::new(0.9).photon_prograde;
-    assert_eq!(refuse(Some(0.9), place(1.5, FRAC_PI_2), Motion::Orbit), ObserverError::NoOrbit { r: 1.5, photon });
+    assert_eq!(
+        refuse(Some(0.9), place(1.5, FRAC_PI_2), Motion::Orbit),
+        ObserverError::NoOrbit { r: 1.5, photon }
+    );
     for v in [[0.6, 0.8, 0.0], [f64::NAN, 0.0, 0.0], [0.0, 0.0, 2.0]] {
         assert!(matches!(refuse_speed(Motion::Velocity(v)), ObserverError::FasterThanLight { .. }));
         assert!(matches!(refuse_speed(Motion::VelocityFromFall(v)), ObserverError::FasterThanLight { .. }));
@@ -495,7 +508,11 @@ fn refuse_speed(motion: Motion) -> ObserverError {
 fn directions_to_points() {
     let mut random = Random::new(76);
     for _ in 0..200 {
-        let place = Place { r: random.within(5.0, 50.0), theta: random.within(0.0, PI), phi: random.within(-3.0, 3.0) };
+        let place = Place {
+            r: random.within(5.0, 50.0),
+            theta: random.within(0.0, PI),
+            phi: random.within(-3.0, 3.0),
+        };
         let target = random.direction().map(|c| 4.0 * c);
         let flat = Observer::new(None, place, Motion::Static).unwrap();
         let ray = flat.ray(flat.direction_to(target));

@@ -122,3 +122,29 @@ fn energy(metric: Kerr, r: Dual<f64, 1>, sense: f64) -> Dual<f64, 1> {
     let norm = -(tt + tp * rate * 2.0 + pp * rate * rate);
     -(tt + tp * rate) / norm.sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::spacetime::kerr::Orbits;
+
+    #[test]
+    fn the_closed_forms_give_the_published_table() {
+        for [a, photon_p, photon_r, impact_p, impact_r, isco_p, isco_r, efficiency] in TABLE {
+            let near = |x: f64, y: f64| assert!((x - y).abs() < 1e-10, "a = {a}: {x} is not {y}");
+            let o = Orbits::new(a);
+            near(o.photon_prograde, photon_p);
+            near(o.photon_retrograde, photon_r);
+            near(o.impact_prograde, impact_p);
+            near(o.impact_retrograde, impact_r);
+            near(o.isco, isco_p);
+            near(o.isco_retrograde, isco_r);
+            assert!((o.efficiency - efficiency).abs() < 1e-8, "efficiency at a = {a}");
+            // About +z and about −z change places with the sign of the spin.
+            let mirrored = Orbits::new(-a);
+            near(mirrored.isco, o.isco_retrograde);
+            near(mirrored.photon_prograde, o.photon_retrograde);
+            near(mirrored.impact_retrograde, o.impact_prograde);
+        }
+    }
+}

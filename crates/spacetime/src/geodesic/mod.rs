@@ -6,6 +6,7 @@ mod dense;
 mod flow;
 mod integrator;
 mod inverted;
+mod log;
 mod method;
 mod ray;
 mod straight;

@@ -119,15 +119,21 @@ where
         let grazes = !crosses && above * height(&slope) < 0.0 && below * height(&end_slope) > 0.0;
         let leaves = reach < 0.0;
         let falls = bounds.inverse_exit.is_none() && depth > bounds.inverse_horizon;
+        let rises = bounds.inverse_exit.filter(|exit| depth < *exit);
         let heading = winding::heading(place::<C, D>(&y), place::<C, D>(&slope));
         let turn = winding::turn(&heading, &place::<C, D>(&step.end));
         let near_axis = turn.abs() > winding::DOUBTFUL;
         let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
         let mut stop = if falls { Some(Stop::Fell) } else { None };
-        if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis {
+        if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis || rises.is_some() {
             let dense = M::dense(chart, &y, &step, &end_slope, h);
             let mut until = 1.0;
-            if leaves {
+            if let Some(exit) = rises {
+                // A step may reach far beyond.
+                let within = |t: f64| chart.inverse_radius(&dense.at(t)) - exit;
+                until = root(within, within(0.0), depth - exit);
+                stop = Some(Stop::Rose);
+            } else if leaves {
                 until = root(|t| chart.reach(&dense.at(t)), chart.reach(&y), reach);
                 stop = Some(Stop::Left);
             } else if falls {
@@ -159,12 +165,9 @@ where
             }
             next.swept = swept + winding::sweep(&dense, C::PLACE, &heading, until);
         }
-        if let Some(exit) = bounds.inverse_exit {
-            if depth < exit {
-                stop = Some(Stop::Rose);
-            } else if depth < bounds.inverse_horizon && depth > chart.inverse_radius(&y) {
-                stop = Some(Stop::Sank);
-            }
+        let outside = bounds.inverse_exit.is_some() && depth < bounds.inverse_horizon;
+        if outside && rises.is_none() && depth > chart.inverse_radius(&y) {
+            stop = Some(Stop::Sank);
         }
         if let Some(stop) = stop {
             return End { stop, ..next };

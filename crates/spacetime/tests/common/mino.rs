@@ -57,7 +57,8 @@ impl<S: Scalar> Flow<S, 6> for Photon {
             let inner = u2 * (s * s - s * lambda) + 1.0 - du;
             -((-mu2 + 1.0).recip() * lambda - s + u2 * (s * c) / inner)
         } else {
-            (-mu2 + 1.0).recip() * lambda + (u * 2.0 - u2 * (s * lambda)) * s / delta;
+            (-mu2 + 1.0).recip() * lambda + (u * 2.0 - u2 * (s * lambda)) * s / delta
+        };
         // 2r(r² + s² − sλ)/Δ = 2[1 + (s² − sλ)u²]/(u Δ/r²).
         let time = if self.timed {
             u2.recip() + mu2 * (s * s) + (u2 * (s * s - s * lambda) + 1.0) * 2.0 / (u * delta)
@@ -142,8 +143,10 @@ pub fn travel(photon: Photon, u: f64, mu: f64, inward: bool, mu_sign: f64) -> Tr
             trip.direction = Some([there[2].clamp(-1.0, 1.0).acos(), there[4]]);
             return trip;
         }
-        // φ and t of Boyer and Lindquist diverge at the horizon.
-        if step.end[0] >= (1.0 - 1e-6) / horizon {
+        // φ and t of Boyer and Lindquist diverge at the horizon; from within, what turns back
+        // has come from elsewhere.
+        let over = if photon.falling { step.end[1] >= 0.0 } else { step.end[0] >= (1.0 - 1e-6) / horizon };
+        if over {
             return trip;
         }
         y = step.end;
