@@ -4,10 +4,12 @@
 //! 2 the input was wrong, 130 interrupted.
 
 mod bench;
+mod manual;
 mod orbits;
 mod progress;
 mod render;
 mod report;
+mod scene;
 mod shadow;
 mod side_view;
 mod trace;
@@ -25,6 +27,19 @@ use std::process::ExitCode;
 struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
+    #[command(flatten)]
+    talk: Talk,
+}
+
+/// How much the program says of its work.
+#[derive(clap::Args, Clone, Copy, Debug)]
+struct Talk {
+    /// Say nothing of what is done, only of what goes wrong
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    quiet: bool,
+    /// Say on standard error what is done, and how long it takes
+    #[arg(short, long, global = true)]
+    verbose: bool,
 }
 
 #[derive(Subcommand, Debug)]
@@ -41,6 +56,14 @@ enum Command {
     Validate(validate::Arguments),
     /// Rays per second, and how exact they are
     Bench(bench::Arguments),
+    /// Check a scene, or print it with every default
+    Scene(scene::Arguments),
+    /// Print the JSON Schema of scene files
+    Schema,
+    /// Print a completion script for a shell
+    Completions(manual::Completions),
+    /// Print the manual page
+    Man(manual::Man),
 }
 
 /// How results are printed.
@@ -55,13 +78,20 @@ enum Format {
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
+    if arguments.talk.verbose {
+        tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).init();
+    }
     let outcome = match arguments.command.unwrap_or(Command::Render(render::Arguments::default())) {
-        Command::Render(a) => render::run(&a),
+        Command::Render(a) => render::run(&a, arguments.talk.quiet),
         Command::Trace(a) => trace::run(&a),
         Command::Orbits(a) => orbits::run(&a),
         Command::Shadow(a) => shadow::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),
+        Command::Scene(a) => scene::run(&a),
+        Command::Schema => manual::schema(),
+        Command::Completions(a) => manual::completions(&a),
+        Command::Man(a) => manual::man(&a),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

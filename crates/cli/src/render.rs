@@ -3,6 +3,7 @@
 use crate::progress;
 use crate::report::Failure;
 use crate::{Format, print, print_json};
+use indicatif::ProgressBar;
 use kerrscope::output::Provenance;
 use kerrscope::output::png::{Depth, Png};
 use kerrscope::render::{Film, Stage, draw, instruction_level};
@@ -11,6 +12,7 @@ use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use tracing::info;
 
 /// Draws a scene file, or the built-in scene.
 #[derive(clap::Args, Debug, Default)]
@@ -52,16 +54,22 @@ struct Output {
     instruction_level: &'static str,
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let mut overrides = arguments.set.clone();
     overrides.extend(arguments.engine.iter().map(|engine| format!("render.engine={engine}")));
     let scene = Scene::load(arguments.scene.as_deref(), &overrides)?;
     let outputs = outputs(arguments)?;
     let stage = Stage::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
-    let film = draw_in_pool(&stage, arguments.threads)?;
+    info!(rays = stage.rays(), "scene ready");
+    let film = draw_in_pool(&stage, arguments.threads, quiet)?;
+    info!(given_up = film.tally.given_up, steps = film.tally.steps, "rays traced");
     for path in &outputs {
         write(&scene, &film, path)?;
+        info!(path = %path.display(), "written");
+    }
+    if quiet && arguments.format == Format::Text {
+        return Ok(());
     }
     report(arguments, &stage, &film, &outputs, start.elapsed().as_secs_f64())
 }
@@ -85,13 +93,13 @@ fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     if wrong.is_empty() { Ok(arguments.output.clone()) } else { Err(Failure::Input(wrong.join("\nerror: "))) }
 }
 
-fn draw_in_pool(stage: &Stage, threads: Option<NonZeroUsize>) -> Result<Film, Failure> {
+fn draw_in_pool(stage: &Stage, threads: Option<NonZeroUsize>, quiet: bool) -> Result<Film, Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.map_or(0, NonZeroUsize::get))
         .build()
         .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
     let stopped = progress::stop_flag();
-    let bar = progress::bar(stage.rays());
+    let bar = if quiet { ProgressBar::hidden() } else { progress::bar(stage.rays()) };
     let film = pool.install(|| draw(stage, stopped, &|rays| bar.inc(rays)));
     bar.finish_and_clear();
     film.ok_or(Failure::Interrupted)
