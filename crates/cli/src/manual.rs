@@ -10,7 +10,9 @@ use std::path::PathBuf;
 
 /// Prints a script for a shell
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Example:\n  kerrscope completions bash > ~/.local/share/bash-completion/completions/kerrscope")]
+#[command(
+    after_help = "Example:\n  kerrscope completions bash > ~/.local/share/bash-completion/completions/kerrscope"
+)]
 pub struct Completions {
     /// The shell
     shell: Shell,
@@ -18,7 +20,9 @@ pub struct Completions {
 
 /// Prints the manual page, or writes the pages of all commands to a folder
 #[derive(clap::Args, Debug)]
-#[command(after_help = "Examples:\n  kerrscope man | man -l -\n  kerrscope man --folder ~/.local/share/man/man1")]
+#[command(
+    after_help = "Examples:\n  kerrscope man | man -l -\n  kerrscope man --folder ~/.local/share/man/man1"
+)]
 pub struct Man {
     /// Folder to write kerrscope.1, kerrscope-render.1 and so on to
     #[arg(long, value_name = "DIR")]
@@ -48,7 +52,8 @@ pub fn man(arguments: &Man) -> Result<(), Failure> {
     for command in std::iter::once(whole.clone()).chain(parts) {
         let path = folder.join(format!("{}.1", command.get_name()));
         let text = page(command)?;
-        write_atomically(&path, |w| w.write_all(text.as_bytes())).map_err(|e| Failure::Failed(e.to_string()))?;
+        write_atomically(&path, |w| w.write_all(text.as_bytes()))
+            .map_err(|e| Failure::Failed(e.to_string()))?;
     }
     Ok(())
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 #[command(after_help = "Example:\n  kerrscope orbits --spin 0.9")]
 pub struct Arguments {
     /// Spin a, from -1 to 1
-    #[arg(long, value_name = "A", value_parser = parse_spin, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = parse_spin, allow_hyphen_values = true)]
     spin: f64,
     /// How to print
     #[arg(long, value_enum, default_value_t)]

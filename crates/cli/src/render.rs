@@ -48,9 +48,9 @@ struct Output {
     total_flux_jy: Option<f64>,
     centroid: Option<[f64; 2]>,
     size: Option<[f64; 2]>,
-    error_estimate: f64,
-    error_estimate_99: f64,
-    error_estimate_max: f64,
+    error_estimate: Option<f64>,
+    error_estimate_99: Option<f64>,
+    error_estimate_max: Option<f64>,
     instruction_level: &'static str,
 }
 
@@ -141,7 +141,7 @@ fn report(
             size: moments.map(|m| m.size),
             error_estimate: tally.quantile(0.5),
             error_estimate_99: tally.quantile(0.99),
-            error_estimate_max: tally.worst,
+            error_estimate_max: tally.quantile(1.0).map(|_| tally.worst),
             instruction_level: instruction_level(),
         });
     }
@@ -154,7 +154,7 @@ fn report(
     ))?;
     if tally.given_up > 0 {
         print(&format!(
-            "{} rays were given up after render.max_steps steps and are dark; raise it to follow them.",
+            "{} rays were given up; what lies at their ends is missing. A larger render.max_steps follows most of them.",
             tally.given_up
         ))?;
     }

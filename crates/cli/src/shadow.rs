@@ -10,7 +10,7 @@ use serde::Serialize;
 #[command(after_help = "Example:\n  kerrscope shadow --spin 0.9 --inclination 60 --points 8")]
 pub struct Arguments {
     /// Spin a, from -1 to 1
-    #[arg(long, value_name = "A", value_parser = parse_spin, allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", value_parser = parse_spin, allow_hyphen_values = true)]
     spin: f64,
     /// Inclination in degrees, 0 for face-on
     #[arg(long, value_name = "DEG", value_parser = parse_inclination)]

@@ -1,7 +1,8 @@
 //! A ray seen from the side, as SVG: in the manner of the thesis's figure 4.4.
 //!
 //! The view is along the horizontal direction at right angles to the camera's: distance from the
-//! axis in the camera's direction to the right, z up. The hole is drawn to scale.
+//! axis in the camera's direction to the right, z up. In these coordinates (Kerr–Schild) the
+//! horizon is an ellipsoid with half-axes √(2r₊) across and r₊ along z (M = 1).
 
 use kerrscope::spacetime::geodesic::Path;
 use std::fmt::Write;
@@ -36,8 +37,10 @@ pub fn draw(path: &Path, horizon: f64, title: &str) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" font-family=\"sans-serif\">\n\
          <rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
          <path d=\"M{MARGIN} {y0:.2}H{:.2}\" stroke=\"#d08030\" stroke-width=\"2\"/>\n\
-         <circle cx=\"{x0:.2}\" cy=\"{y0:.2}\" r=\"{:.2}\" fill=\"#000\"/>\n",
+         <ellipse cx=\"{x0:.2}\" cy=\"{y0:.2}\" rx=\"{:.2}\" ry=\"{:.2}\" fill=\"#000\"/>\n",
         WIDTH - MARGIN,
+        // r₊² + a² = 2r₊.
+        (2.0 * horizon).sqrt() * scale,
         horizon * scale
     );
     let line: Vec<String> = points

@@ -27,7 +27,7 @@ pub struct Arguments {
     #[arg(conflicts_with_all = ["spin", "inclination", "distance"])]
     scene: Option<PathBuf>,
     /// Spin a, from -1 to 1
-    #[arg(long, value_name = "A", value_parser = parse_spin, allow_negative_numbers = true, requires = "inclination")]
+    #[arg(long, value_name = "A", value_parser = parse_spin, allow_hyphen_values = true, requires = "inclination")]
     spin: Option<f64>,
     /// Inclination in degrees
     #[arg(long, value_name = "DEG", value_parser = parse_inclination, requires = "spin")]
@@ -42,10 +42,10 @@ pub struct Arguments {
     #[arg(long, value_name = "K", requires = "pixel")]
     sample: Option<u32>,
     /// Impact parameter to the right, M
-    #[arg(long, value_name = "M", value_parser = parse_finite, allow_negative_numbers = true, requires = "beta")]
+    #[arg(long, value_name = "M", value_parser = parse_finite, allow_hyphen_values = true, requires = "beta")]
     alpha: Option<f64>,
     /// Impact parameter along the projected spin axis, M
-    #[arg(long, value_name = "M", value_parser = parse_finite, allow_negative_numbers = true, requires = "alpha")]
+    #[arg(long, value_name = "M", value_parser = parse_finite, allow_hyphen_values = true, requires = "alpha")]
     beta: Option<f64>,
     /// Override a key of the scene; may be given several times
     #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
@@ -123,6 +123,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let drawn = matches!(arguments.format, TraceFormat::Csv | TraceFormat::Svg);
     let points = arguments.path.map_or(if drawn { 1000 } else { 0 }, |n| n as usize);
     let query = Query { max_crossings: arguments.crossings, elapsed: true, points, ..Query::default() };
+    if points > 0 && shot.ray.side == Side::Ingoing {
+        return Err(Failure::Input(
+            "a path starts outside the horizon (a falling camera's beyond 1.1 r+): leave out --path"
+                .to_owned(),
+        ));
+    }
     let mut path = Path::default();
     shot.tracer.trace(&shot.ray, &query, &mut path);
     match arguments.format {

@@ -22,7 +22,8 @@ fn the_schema_knows_the_keys() {
 #[test]
 fn a_printed_scene_is_that_scene() {
     let folder = tempfile::tempdir().unwrap();
-    let printed = text(&["scene", "--print", "--set", "spacetime.spin=0.25", "--set", "observer.distance=50"]);
+    let printed =
+        text(&["scene", "--print", "--set", "spacetime.spin=0.25", "--set", "observer.distance=50"]);
     assert!(printed.contains("spin = 0.25") && printed.contains("tolerance"), "{printed}");
     std::fs::write(folder.path().join("a.toml"), &printed).unwrap();
     let again = run(folder.path(), &["scene", "a.toml", "--print"]);
@@ -57,7 +58,9 @@ fn quiet_and_verbose() {
 
 #[test]
 fn every_command_explains_itself() {
-    for command in ["render", "trace", "orbits", "shadow", "validate", "bench", "scene", "schema", "completions", "man"] {
+    for command in
+        ["render", "trace", "orbits", "shadow", "validate", "bench", "scene", "schema", "completions", "man"]
+    {
         assert!(text(&[command, "--help"]).contains("Usage"), "{command}");
     }
 }

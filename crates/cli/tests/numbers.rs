@@ -63,6 +63,27 @@ fn a_ray_of_impact_parameters() {
 }
 
 #[test]
+fn numbers_may_be_negative_separate_words() {
+    for (word, lambda) in [("-1e-3", 1e-3), ("-.5", 0.5), ("-1.5e-05", 1.5e-5), ("-7", 7.0)] {
+        let arguments = [
+            "trace",
+            "--spin",
+            "-.5",
+            "--inclination",
+            "90",
+            "--alpha",
+            word,
+            "--beta",
+            "-2e0",
+            "--format",
+            "json",
+        ];
+        near(&here(&arguments)["conserved"]["lambda"], lambda, 1e-15 * lambda.max(1.0));
+    }
+    near(&here(&["orbits", "--spin", "-5e-1", "--format", "json"])["spin"], -0.5, 0.0);
+}
+
+#[test]
 fn a_ray_that_does_not_come_back() {
     let arguments = [
         "trace",

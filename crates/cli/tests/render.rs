@@ -64,6 +64,14 @@ fn json_names_what_was_done() {
 }
 
 #[test]
+fn rays_that_are_given_up_have_no_error_estimate() {
+    let folder = tempfile::tempdir().unwrap();
+    let value = json(folder.path(), &small(&["--format", "json", "--set", "render.max_steps=3"]));
+    assert_eq!(value["rays_given_up"], value["rays"]);
+    assert!(value["error_estimate"].is_null() && value["error_estimate_max"].is_null());
+}
+
+#[test]
 fn wrong_input_exits_with_2_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(

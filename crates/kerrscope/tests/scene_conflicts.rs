@@ -350,3 +350,12 @@ fn fixed_steps_do_not_come_from_infinity() {
     assert!(faults[0].message.contains("cannot come in from infinity"));
     assert_eq!(faults[0].line_column(), Some((6, 10)));
 }
+
+#[test]
+fn impact_parameters_are_a_static_observers() {
+    let text = "[observer]\nmotion = \"zamo\"\n[screen]\nkind = \"impact\"";
+    let faults = faults(text);
+    assert_eq!(faults.len(), 1, "{faults}");
+    assert!(faults[0].message.contains("static observer"));
+    assert_eq!(faults[0].line_column(), Some((2, 10)));
+}

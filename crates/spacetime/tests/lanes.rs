@@ -124,11 +124,11 @@ fn a_bad_lane_stays_alone() {
     }
 }
 
-/// Eight photons, as eight states and as one state of lanes.
-fn photons<L: Simd>(
-    random: &mut Random,
-    simd: L,
-) -> ([f64; 8], [Inverted<f64>; 8], Lanes<L>, Inverted<Lanes<L>>) {
+/// Energies and states, as eight and as one of lanes.
+type Photons<L> = ([f64; 8], [Inverted<f64>; 8], Lanes<L>, Inverted<Lanes<L>>);
+
+/// Eight photons.
+fn photons<L: Simd>(random: &mut Random, simd: L) -> Photons<L> {
     let energies: [f64; 8] = std::array::from_fn(|_| random.within(-2.0, 2.0));
     let states: [Inverted<f64>; 8] = std::array::from_fn(|k| {
         let n = random.direction();

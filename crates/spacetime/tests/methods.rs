@@ -148,6 +148,18 @@ fn one<M: Method<STAGES>, const STAGES: usize>(h: f64) -> (Step<f64, 4, STAGES>,
     (step, dense)
 }
 
+/// [`Kepler`] without scales.
+struct Weightless;
+
+impl Flow<f64, 4> for Weightless {
+    fn derivative(&self, y: &[f64; 4]) -> [f64; 4] {
+        Kepler.derivative(y)
+    }
+    fn inverse_scale(&self, _y: &[f64; 4]) -> [f64; 4] {
+        [0.0; 4]
+    }
+}
+
 /// The estimate falls with the power of h that the controller takes for granted, and is above
 /// the error of the step that is taken.
 #[test]
@@ -165,18 +177,9 @@ fn error_estimates() {
     assert_eq!(one::<Rk4, 4>(0.1).0.error, 0.0);
     assert_eq!(Rk4::ERROR_ORDER, 0.0);
     // A component with no scale has no say.
-    struct Half;
-    impl Flow<f64, 4> for Half {
-        fn derivative(&self, y: &[f64; 4]) -> [f64; 4] {
-            Kepler.derivative(y)
-        }
-        fn inverse_scale(&self, _y: &[f64; 4]) -> [f64; 4] {
-            [0.0; 4]
-        }
-    }
     let y = kepler(0.5);
-    assert_eq!(Tsit5::step(&Half, &y, &Kepler.derivative(&y), 0.1).error, 0.0);
-    assert_eq!(Dop853::step(&Half, &y, &Kepler.derivative(&y), 0.1).error, 0.0);
+    assert_eq!(Tsit5::step(&Weightless, &y, &Kepler.derivative(&y), 0.1).error, 0.0);
+    assert_eq!(Dop853::step(&Weightless, &y, &Kepler.derivative(&y), 0.1).error, 0.0);
 }
 
 /// Dense output meets the values and the slopes at both ends.
@@ -195,11 +198,11 @@ fn dense_output_meets_both_ends() {
             // One-sided differences of order four of a polynomial of degree seven at most.
             let d = 1e-3;
             let at = |k: f64| dense.at(theta + inward * k * d);
-            for i in 0..4 {
+            for (i, slope) in slope.into_iter().enumerate() {
                 let values = [at(0.0)[i], at(1.0)[i], at(2.0)[i], at(3.0)[i], at(4.0)[i]];
                 let sum: f64 = values.iter().zip([-25.0, 48.0, -36.0, 16.0, -3.0]).map(|(v, c)| v * c).sum();
                 let difference = inward * sum / (12.0 * d);
-                worst.see((difference / h - slope[i]).abs(), || format!("slope {i} at {theta}"));
+                worst.see((difference / h - slope).abs(), || format!("slope {i} at {theta}"));
                 assert_eq!(dense.component(i, 0.37), dense.at(0.37)[i]);
             }
         }

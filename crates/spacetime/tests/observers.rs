@@ -188,6 +188,9 @@ fn at_rest(s: f64, place: &Place, n: [f64; 3]) -> Vec4<f64> {
     [energy, n[0] * (sigma / delta).sqrt(), n[1] * sigma.sqrt(), g_tp / energy + n[2] * across]
 }
 
+/// What an observer with hole spin s at a place finds for a direction.
+type Formula = fn(f64, &Place, [f64; 3]) -> Vec4<f64>;
+
 #[test]
 fn photons_of_zamos_and_static_observers() {
     let mut random = Random::new(72);
@@ -201,7 +204,6 @@ fn photons_of_zamos_and_static_observers() {
             phi: random.within(-4.0, 4.0),
         };
         let n = random.direction();
-        type Formula = fn(f64, &Place, [f64; 3]) -> Vec4<f64>;
         let cases: [(Motion, Formula); 2] = [(Motion::ZeroAngularMomentum, zamo), (Motion::Static, at_rest)];
         for (motion, formula) in cases {
             if check(Some(spin), &place, &motion).is_err() {
@@ -302,9 +304,9 @@ fn velocities() {
             let label = || format!("a = {spin}, {place:?}, {v:?}");
             let size = base.size().max(frame.size());
             worst.see((product(&base.raised, &frame.u, &base.u) + gamma).abs() / size, label);
-            for k in 0..3 {
-                let component = product(&base.raised, &frame.u, &base.axes[k]);
-                worst.see((component - sense * gamma * v[k]).abs() / size, label);
+            for (axis, part) in base.axes.iter().zip(v) {
+                let component = product(&base.raised, &frame.u, axis);
+                worst.see((component - sense * gamma * part).abs() / size, label);
             }
         }
         // Along the coordinates, where they have a direction.

@@ -55,7 +55,9 @@ pub enum Mapping {
     Around,
     /// Laid flat: the picture covers the square from −outer to outer both ways, its
     /// centre at the hole. Right in the picture is the direction of the ascending node,
-    /// up is 90° ahead; so it is seen as it is from the side of the normal.
+    /// up is 90° ahead; so it is seen as it is from the side of the normal. The azimuth is
+    /// that of the coordinates that the hit is given in: Kerr–Schild ones wind up towards
+    /// the hole against Boyer–Lindquist's.
     ///
     /// ```text
     /// u = ½ (1 + r cos azimuth / outer)      v = ½ (1 − r sin azimuth / outer)

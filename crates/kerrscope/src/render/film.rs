@@ -58,11 +58,11 @@ impl Film {
 pub struct Tally {
     /// Rays traced.
     pub rays: u64,
-    /// Rays given up on; they are dark in the picture.
+    /// Rays given up on, or whose error is not known; what they would have met is missing in the picture.
     pub given_up: u64,
     /// Integration steps.
     pub steps: u64,
-    /// Largest error estimate.
+    /// Largest error estimate; 0 if there are none.
     pub worst: f64,
     /// Rays by the power of two of their error estimate: number k holds 2^(k−64) to 2^(k−63).
     octaves: [u64; 128],
@@ -79,7 +79,7 @@ impl Tally {
     pub fn count(&mut self, steps: usize, estimate: f64, given_up: bool) {
         self.rays += 1;
         self.steps += steps as u64;
-        if given_up {
+        if given_up || !estimate.is_finite() {
             self.given_up += 1;
             return;
         }
@@ -100,17 +100,17 @@ impl Tally {
     }
 
     /// The error estimate that a share of the rays stays below, to within a factor of two
-    /// (rounded up); zero if there are none.
-    pub fn quantile(&self, share: f64) -> f64 {
+    /// (rounded up); none if every ray was given up on.
+    pub fn quantile(&self, share: f64) -> Option<f64> {
         let total: u64 = self.octaves.iter().sum();
         let mut rest = share * total as f64;
         for (octave, &count) in (-63..).zip(&self.octaves) {
             rest -= count as f64;
             if count > 0 && rest <= 0.0 {
-                return 2f64.powi(octave);
+                return Some(2f64.powi(octave));
             }
         }
-        0.0
+        None
     }
 }
 
@@ -139,8 +139,11 @@ mod tests {
         }
         tally.count(10_000, f64::NAN, true);
         assert_eq!((tally.rays, tally.given_up), (101, 1));
-        let median = tally.quantile(0.5);
+        let median = tally.quantile(0.5).unwrap();
         assert!((5e-11..=1e-10).contains(&median), "{median:e}");
-        assert!(tally.quantile(1.0) >= 1e-10);
+        assert!(tally.quantile(1.0).unwrap() >= 1e-10);
+        let mut none = Tally::default();
+        none.count(10_000, 1.0, true);
+        assert_eq!(none.quantile(0.5), None);
     }
 }

@@ -49,8 +49,8 @@ pub struct Screen {
     pub kind: ScreenKind,
     /// Angle in radians by which the camera is turned anticlockwise, so the picture clockwise.
     pub roll: f64,
-    /// Kerr–Schild Cartesian point at the picture's middle, not the observer's own place; without
-    /// it the camera looks along −`e_r` of Boyer–Lindquist. `None` for [`ScreenKind::Impact`].
+    /// Kerr–Schild Cartesian point that the camera is turned to along a straight line, not the
+    /// observer's own place; without it the camera looks along −`e_r` of Boyer–Lindquist. `None` for [`ScreenKind::Impact`].
     pub look_at: Option<[f64; 3]>,
 }
 
@@ -165,13 +165,14 @@ pub struct Render {
     pub engine: Engine,
     /// Which method integrates them.
     pub method: Method,
-    /// Relative error that the adaptive methods allow in a step.
+    /// About the error of a ray's direction in radians, away from the critical curve.
     pub tolerance: f64,
     /// Step in M of the method with fixed steps.
     pub step: f64,
     /// Steps after which a ray is given up.
     pub max_steps: u32,
-    /// Crossings of the disk's plane after which a ray is followed no farther.
+    /// Crossings of the disk's plane that count, the first met going back from the camera; what lies
+    /// behind is seen through the rest.
     pub max_crossings: u32,
 }
 

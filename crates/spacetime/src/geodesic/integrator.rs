@@ -41,8 +41,9 @@ const STEP_SHARE: f64 = 1.0 / 30.0;
 /// tolerance for what that cannot show: at most one ray in twenty errs by more.
 const CAUTION: f64 = 3.0;
 
-/// A photon that rises through the horizon changes sheets at this multiple of its radius.
-const EXIT: f64 = 1.1;
+/// A photon that rises through the horizon changes sheets at this multiple of its radius, and
+/// falling cameras within it start on the ingoing sheet.
+pub const EXIT: f64 = 1.1;
 
 /// A tracer that integrates.
 ///

@@ -16,7 +16,7 @@ mod winding;
 pub use affine::AffineFlow;
 pub use dense::Dense;
 pub use flow::Flow;
-pub use integrator::{Integrator, Scheme};
+pub use integrator::{EXIT, Integrator, Scheme};
 pub use inverted::InvertedFlow;
 pub use method::{Dop853, Method, Rk4, Step, Tsit5};
 pub use ray::{Ray, Side};
@@ -45,7 +45,8 @@ pub struct Query {
     pub max_crossings: usize,
     /// Whether to integrate the elapsed coordinate time too.
     pub elapsed: bool,
-    /// How many points along the ray to keep, evenly spaced in its parameter; 0 for none.
+    /// How many points along the ray to keep, evenly spaced in its parameter; 0 for none. A camera on
+    /// [`Side::Ingoing`] gets none.
     pub points: usize,
 }
 
@@ -83,7 +84,8 @@ pub struct Path {
     pub steps: usize,
     /// Estimated error: radians of direction where the ray escaped, relative radius elsewhere.
     pub error_estimate: f64,
-    /// Points (t, x, y, z) in the chart of the ray, M, t ≤ 0 before the camera's, if asked for.
+    /// Points (t, x, y, z) in the chart of the ray, M, if asked for; t is minus the chart's time to
+    /// the camera (from infinity, less its distance).
     pub points: Vec<[f64; 4]>,
 }
 

@@ -86,6 +86,7 @@ where
     chart.settle(&mut y);
     let mut slope = chart.derivative(&y);
     let mut h = if adaptive { chart.step_for(&y, 0.3) } else { control.step };
+    let sense = if chart.state(&y).j[2] < 0.0 { -1.0 } else { 1.0 };
     // A photon that starts in the plane has not crossed it.
     let mut above = Some(height(&y)).filter(|g| *g != 0.0).unwrap_or_else(|| height(&slope));
     let (mut swept, mut sigma, mut steps, mut refused) = (0.0, 0.0, 0, false);
@@ -143,7 +144,7 @@ where
             let level = |t: f64| height(&dense.at(t));
             let mut meet = |theta: f64| {
                 if theta < until {
-                    let sweep = winding::sweep(&dense, C::PLACE, &heading, theta);
+                    let sweep = winding::sweep(&dense, C::PLACE, &heading, theta, sense);
                     visitor.crossing(&dense.at(theta), swept + sweep);
                 }
             };
@@ -163,7 +164,7 @@ where
             if until < 1.0 {
                 next.y = dense.at(until);
             }
-            next.swept = swept + winding::sweep(&dense, C::PLACE, &heading, until);
+            next.swept = swept + winding::sweep(&dense, C::PLACE, &heading, until, sense);
         }
         let outside = bounds.inverse_exit.is_some() && depth < bounds.inverse_horizon;
         if outside && rises.is_none() && depth > chart.inverse_radius(&y) {

@@ -2,6 +2,7 @@
 
 use super::dense::Dense;
 use crate::tensor::Vec3;
+use std::f64::consts::{PI, TAU};
 
 /// The angle in (−π, π] by which the horizontal part of a turns into that of b; 0 if one of
 /// them vanishes.
@@ -17,11 +18,18 @@ pub const DOUBTFUL: f64 = 1.0;
 /// The azimuth swept by the direction in components `first..first + 3` of a dense output, from
 /// that of `start` at its beginning up to θ = `to`.
 ///
-/// Intervals are halved until each turns little; one that passes so close to the axis
-/// that 40 halvings do not resolve it turns by what its end points say.
-pub fn sweep<const D: usize>(dense: &Dense<f64, D>, first: usize, start: &Vec3<f64>, to: f64) -> f64 {
+/// Intervals are halved until each turns little, or lies so close to the axis that an error of
+/// the ray could take it past on the wrong side: it turns in the `sense` (±1) of the angular
+/// momentum about the axis, which is exact.
+pub fn sweep<const D: usize>(
+    dense: &Dense<f64, D>,
+    first: usize,
+    start: &Vec3<f64>,
+    to: f64,
+    sense: f64,
+) -> f64 {
     let place = |theta| std::array::from_fn(|i| dense.component(first + i, theta));
-    refine(&place, (0.0, *start), (to, place(to)), 40)
+    refine(&place, (0.0, *start), (to, place(to)), sense, 40)
 }
 
 /// The direction whose azimuth a ray has at `place`: on the axis, that in which it leaves.
@@ -30,10 +38,25 @@ pub fn heading(place: Vec3<f64>, slope: Vec3<f64>) -> Vec3<f64> {
     if place[0] == 0.0 && place[1] == 0.0 { slope } else { place }
 }
 
-fn refine(place: &impl Fn(f64) -> Vec3<f64>, a: (f64, Vec3<f64>), b: (f64, Vec3<f64>), depth: u32) -> f64 {
+/// Within a milliradian of the axis, where only the angular momentum turns a ray.
+fn hugs_axis(place: &Vec3<f64>) -> bool {
+    place[0].hypot(place[1]) < 1e-3 * place[2].abs()
+}
+
+fn refine(
+    place: &impl Fn(f64) -> Vec3<f64>,
+    a: (f64, Vec3<f64>),
+    b: (f64, Vec3<f64>),
+    sense: f64,
+    depth: u32,
+) -> f64 {
     let whole = turn(&a.1, &b.1);
-    if depth == 0 || whole.abs() < 0.25 {
+    if whole.abs() < 0.25 {
         return whole;
+    }
+    if depth == 0 || (hugs_axis(&a.1) && hugs_axis(&b.1)) {
+        let against = whole * sense < 0.0 && whole.abs() > 0.5 * PI;
+        return if against { whole + sense * TAU } else { whole };
     }
     let theta = 0.5 * (a.0 + b.0);
     let middle = (theta, place(theta));
@@ -41,5 +64,5 @@ fn refine(place: &impl Fn(f64) -> Vec3<f64>, a: (f64, Vec3<f64>), b: (f64, Vec3<
     if left.abs() < DOUBTFUL && right.abs() < DOUBTFUL && (left + right - whole).abs() < 1e-6 {
         return whole;
     }
-    refine(place, a, middle, depth - 1) + refine(place, middle, b, depth - 1)
+    refine(place, a, middle, sense, depth - 1) + refine(place, middle, b, sense, depth - 1)
 }

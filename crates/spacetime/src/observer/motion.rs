@@ -96,6 +96,9 @@ pub enum ObserverError {
     /// Flat space has no orbits.
     #[error("nothing orbits in flat space")]
     NothingToOrbit,
+    /// Directions at infinity are all alike.
+    #[error("an observer at infinity sees by impact parameters, not by directions")]
+    AtInfinity,
     /// An observer at infinity is at rest there.
     #[error("an observer at infinity is static")]
     MovingAtInfinity,

@@ -3,7 +3,7 @@
 use super::motion::{Motion, ObserverError, Place, check};
 use super::polar_sin_cos;
 use crate::dual::Dual;
-use crate::geodesic::{Ray, Side};
+use crate::geodesic::{EXIT, Ray, Side};
 use crate::metric::{Kerr, Metric, Minkowski};
 use crate::tensor::{Tensor, Vec3, Vec4, contract, pair, product};
 
@@ -43,14 +43,20 @@ impl Observer {
     pub fn new(spin: Option<f64>, place: Place, motion: Motion) -> Result<Self, ObserverError> {
         check(spin, &place, &motion)?;
         if place.r.is_infinite() {
-            return Err(ObserverError::MovingAtInfinity);
+            return Err(ObserverError::AtInfinity);
         }
         Ok(match spin {
             None => Self::build(&Minkowski, 0.0, &place, &motion, Side::Reversed),
-            Some(a) if place.r > Kerr::new(a).horizon() => {
-                Self::build(&Kerr::new(-a), -a, &place, &motion, Side::Reversed)
+            Some(a) => {
+                // In the reversed spacetime a falling observer rises, which is singular at the
+                // horizon; in ingoing coordinates nothing is.
+                let falls = matches!(motion, Motion::Fall | Motion::VelocityFromFall(_));
+                if falls && place.r < EXIT * Kerr::new(a).horizon() {
+                    Self::build(&Kerr::new(a), a, &place, &motion, Side::Ingoing)
+                } else {
+                    Self::build(&Kerr::new(-a), -a, &place, &motion, Side::Reversed)
+                }
             }
-            Some(a) => Self::build(&Kerr::new(a), a, &place, &motion, Side::Ingoing),
         })
     }
 
@@ -59,10 +65,11 @@ impl Observer {
         let r = place.r;
         let (sin, cos) = polar_sin_cos(place.theta);
         let azimuth = place.phi
-            + match side {
-                Side::Reversed => metric.azimuth_offset(r),
+            + if r > metric.horizon() {
+                metric.azimuth_offset(r)
+            } else {
                 // Inside the horizon azimuth means that of ingoing coordinates.
-                Side::Ingoing => s.atan2(r),
+                s.atan2(r)
             };
         let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
         let width = r.hypot(s);

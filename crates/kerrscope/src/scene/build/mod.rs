@@ -37,7 +37,7 @@ pub(super) fn build(
     Scene {
         spacetime,
         observer,
-        screen: builder.screen(&file.screen, spacetime, observer.place),
+        screen: builder.screen(&file.screen, spacetime, observer),
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
         render: builder.render(&file.render, observer.place),

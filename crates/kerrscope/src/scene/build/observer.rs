@@ -118,8 +118,10 @@ impl Builder<'_> {
                 let mend = "set `observer.motion = \"static\"`, or give a finite distance";
                 (with(&["observer.motion"]), mend.to_owned())
             }
-            // Told of single photons, which a scene does not ask for.
-            ObserverError::NoSuchPhoton { .. } => (with(&[]), "move the observer".to_owned()),
+            // Told of single photons and of directions, which are not asked for here.
+            ObserverError::NoSuchPhoton { .. } | ObserverError::AtInfinity => {
+                (with(&[]), "move the observer".to_owned())
+            }
         };
         self.fault(&keys, error.to_string(), mend);
     }

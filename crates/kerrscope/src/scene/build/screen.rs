@@ -4,10 +4,10 @@ use kerrscope_spacetime::observer::{Motion, Observer as Eye, Place};
 
 use super::Builder;
 use crate::scene::file;
-use crate::scene::valid::{Screen, ScreenKind, Spacetime};
+use crate::scene::valid::{Observer, Screen, ScreenKind, Spacetime};
 
 impl Builder<'_> {
-    pub(super) fn screen(&mut self, file: &file::Screen, spacetime: Spacetime, place: Place) -> Screen {
+    pub(super) fn screen(&mut self, file: &file::Screen, spacetime: Spacetime, observer: Observer) -> Screen {
         let height = file.field_of_view.unwrap_or_default();
         let mut too_high = |what: &str, mend: &str| {
             let what = format!("{what} cannot be {height}° high");
@@ -27,10 +27,19 @@ impl Builder<'_> {
                 }
                 ScreenKind::Angular { height: height.to_radians() }
             }
-            file::ScreenKind::Impact => ScreenKind::Impact { height },
+            file::ScreenKind::Impact => {
+                if observer.motion != Motion::Static {
+                    self.fault(
+                        &["observer.motion", "screen.kind"],
+                        "the impact parameters of `screen.kind = \"impact\"` are those that a static observer sees",
+                        "set `observer.motion = \"static\"`, or choose `screen.kind` \"pinhole\" or \"angular\"",
+                    );
+                }
+                ScreenKind::Impact { height }
+            }
         };
         if let Some(point) = file.look_at {
-            self.look_at(file.kind, point, spacetime, place);
+            self.look_at(file.kind, point, spacetime, observer.place);
         }
         Screen { kind, roll: file.roll.to_radians(), look_at: file.look_at }
     }

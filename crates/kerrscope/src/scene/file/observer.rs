@@ -25,7 +25,8 @@ pub struct Observer {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(min = 0, max = 180), extend("default" = INCLINATION))]
     pub inclination: Option<f64>,
-    /// Boyer–Lindquist azimuth φ, in degrees.
+    /// Boyer–Lindquist azimuth φ, in degrees; inside the horizon that of ingoing Kerr–Schild
+    /// coordinates.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(min = -1e6, max = 1e6), extend("default" = AZIMUTH))]
     pub azimuth: Option<f64>,

@@ -31,17 +31,19 @@ pub struct Render {
     pub engine: Engine,
     /// Which method integrates the rays.
     pub method: Method,
-    /// Error that "dop853" and "tsit5" allow in a step, relative to the ray's own lengths.
+    /// About the error of a ray's direction in radians that "dop853" and "tsit5" allow, away from the
+    /// critical curve.
     #[schemars(range(min = 1e-14, max = 1e-2))]
     pub tolerance: f64,
-    /// Length of a step in M; for "rk4", 0.1 if not given.
+    /// Step of affine parameter, which far from the hole is a length in M; for "rk4", 0.1 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(max = 1e3), extend("exclusiveMinimum" = 0))]
     pub step: Option<f64>,
     /// Steps after which a ray is given up.
     #[schemars(range(min = 1, max = 1_000_000))]
     pub max_steps: u32,
-    /// Crossings of the disk's plane after which a ray is followed no farther.
+    /// Crossings of the disk's plane that count, the first met going back from the camera; what lies
+    /// behind is seen through the rest.
     #[schemars(range(min = 1, max = 64))]
     pub max_crossings: u32,
 }

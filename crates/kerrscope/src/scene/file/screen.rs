@@ -24,8 +24,10 @@ pub struct Screen {
     /// Angle in degrees by which the camera is turned anticlockwise, so the picture clockwise.
     #[schemars(range(min = -1e6, max = 1e6))]
     pub roll: f64,
-    /// Point [x, y, z] at the picture's middle, in Kerr–Schild Cartesian coordinates, in M; for
-    /// "pinhole" and "angular". Without it the camera looks inwards along r.
+    /// Point [x, y, z] that the camera is turned to, in Kerr–Schild Cartesian coordinates, in M; for
+    /// "pinhole" and "angular". It is the straight line there that counts: bent light, and the
+    /// aberration of a moving camera, show something else at the picture's middle. Without it
+    /// the camera looks inwards along r.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "[f64; 3]", inner(range(min = -1e15, max = 1e15)))]
     pub look_at: Option<[f64; 3]>,

@@ -16,7 +16,7 @@ pub struct Sky {
     #[schemars(range(min = 0, max = 1e12))]
     pub brightness: f64,
     /// Angle between the lines of a "grid" in degrees; divides 90 into equal parts.
-    #[schemars(range(min = 0.1, max = 90))]
+    #[schemars(range(min = 1, max = 90))]
     pub spacing: f64,
     /// Picture file of the whole sky, twice as wide as high, relative to the scene file's
     /// folder; for "panorama", and needed there.
