@@ -124,7 +124,7 @@ fn every_key() {
     assert_eq!(s.sky, scene::Sky { picture: scene::SkyPicture::Black, brightness: 0.0 });
     let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
     assert_eq!(s.sky.picture, scene::SkyPicture::Uniform { color: [1.0; 3] });
-    for spacing in ["0.1", "0.3", "11.25", "22.5", "90"] {
+    for spacing in ["1", "1.2", "11.25", "22.5", "90"] {
         let s = read(&format!("[sky]\nspacing = {spacing}"));
         assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));
     }

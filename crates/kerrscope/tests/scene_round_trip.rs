@@ -96,7 +96,7 @@ fn disks() -> impl Strategy<Value = Disk> {
 
 fn skies() -> impl Strategy<Value = Sky> {
     let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Panorama];
-    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=900_u32, number(-1e6, 1e6)).prop_map(
+    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=90_u32, number(-1e6, 1e6)).prop_map(
         |(kind, color, brightness, lines, longitude)| {
             let image = (kind == SkyKind::Panorama).then(|| "src/../Cargo.toml".to_owned());
             Sky { kind, color, brightness, spacing: 90.0 / f64::from(lines), image, longitude }
@@ -138,9 +138,16 @@ fn cameras() -> impl Strategy<Value = Camera> {
 
 fn scene_files() -> impl Strategy<Value = SceneFile> {
     (spacetimes(), observers(), disks(), skies(), renders(), cameras()).prop_map(
-        |(spacetime, (observer, screen), mut disk, sky, render, camera)| {
+        |(spacetime, (mut observer, screen), mut disk, sky, render, camera)| {
             if spacetime.name == SpacetimeName::Minkowski && disk.inner == Inner::Isco(Isco::Isco) {
                 disk.inner = Inner::Radius(3.0);
+            }
+            let mut render = render;
+            if screen.kind == ScreenKind::Impact {
+                observer.motion = Motion::Named(MotionName::Static);
+            }
+            if observer.distance == Some(f64::INFINITY) && render.method == Method::Rk4 {
+                (render.method, render.step) = (Method::Dop853, None);
             }
             SceneFile { spacetime, observer, screen, disk, sky, render, camera }
         },

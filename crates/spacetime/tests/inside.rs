@@ -6,7 +6,7 @@ mod common;
 use common::mino::{Photon, travel};
 use common::orbit::Orbit;
 use common::{Random, Worst, distance, follow, impact, separation, unit};
-use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side};
+use kerrscope_spacetime::geodesic::{EXIT, Fate, Integrator, Path, Query, Ray, Scheme, Side};
 use kerrscope_spacetime::kerr::horizons;
 use kerrscope_spacetime::metric::{Inverted, Kerr, Metric, Schwarzschild};
 use kerrscope_spacetime::observer::{Motion, Observer, Place};
@@ -193,7 +193,7 @@ fn through_the_horizon() {
                     let twist = if offset > 0.0 { kerr.azimuth_offset(r) - spin.atan2(r) } else { 0.0 };
                     let place = Place { r, theta, phi: 0.2 - twist };
                     let ray = Observer::new(Some(spin), place, motion).unwrap().ray(n);
-                    assert_eq!(ray.side, if offset > 0.0 { Side::Reversed } else { Side::Ingoing });
+                    assert_eq!(ray.side, if r < EXIT * outer { Side::Ingoing } else { Side::Reversed });
                     (ray.conserved(spin), trace(spin, &ray))
                 };
                 let mut compared = 0;
@@ -256,4 +256,59 @@ fn rays_of_captured_photons() {
         count += 1;
     }
     assert!(count > 50, "{count}");
+}
+
+/// Just outside the horizon a falling camera's rays start in ingoing coordinates, a moving one's
+/// in the reversed spacetime; one that moves inwards at √(1 − lapse²) against zero angular
+/// momentum is the falling one. They see the same, photons that turn back among it.
+#[test]
+fn falling_is_moving_inwards() {
+    let mut random = Random::new(95);
+    let (mut worst, mut turned) = (Worst::default(), 0);
+    for _ in 0..3000 {
+        let spin = random.pick(&[0.0, 0.5, -0.9, 0.99, 0.998, -0.998]);
+        let outer = horizons(spin).0;
+        let place = Place { r: outer * random.within(1.02, 1.2), theta: random.within(0.3, 2.8), phi: 0.4 };
+        let (sin, cos) = place.theta.sin_cos();
+        let (r, square) = (place.r, spin * spin);
+        let (sigma, delta) = (r * r + square * cos * cos, (r - 1.0).powi(2) - (1.0 - spin) * (1.0 + spin));
+        let area = (r * r + square).powi(2) - square * delta * sin * sin;
+        let speed = (1.0 - sigma * delta / area).sqrt();
+        // Half of them around the direction of light that turns with the hole.
+        let n = if random.within(0.0, 1.0) < 0.5 {
+            random.direction()
+        } else {
+            let out = random.scale(1e-3, 0.5) - 1.0;
+            let down = random.within(-0.02, 0.02);
+            [out, down, (1.0 - out * out - down * down).sqrt().copysign(-spin)]
+        };
+        let falling = Observer::new(Some(spin), place, Motion::Fall).unwrap().ray(n);
+        let moving = Observer::new(Some(spin), place, Motion::Velocity([-speed, 0.0, 0.0])).unwrap().ray(n);
+        let (a, b) = (trace(spin, &falling), trace(spin, &moving));
+        let boost = 1.0 + 2.0 * r / delta;
+        let share = 1.0 / Kerr::new(-spin).sensitivity(moving.energy, &moving.start);
+        let label = || format!("a = {spin}, {place:?}, {n:?}: {:?}", moving.conserved(spin));
+        if share < 1e-3 {
+            continue;
+        }
+        // A photon that comes out towards the camera from a turning point further in.
+        turned += i32::from(b.fate == Fate::Escaped && turns(&moving, spin));
+        assert_eq!(a.fate, b.fate, "{}", label());
+        if let (Some(p), Some(q)) = (a.direction, b.direction) {
+            // Rounding of the boosted frames, and of a photon that is weak at infinity.
+            let weak = moving.energy.abs().min(1.0).powi(2);
+            worst.see(separation(p, q) * share * weak / boost.powi(2), label);
+        }
+    }
+    assert!(turned > 30, "{turned}");
+    worst.below(1e-11, "falling and moving");
+}
+
+/// Whether the ray goes inwards from the camera.
+fn turns(ray: &Ray, spin: f64) -> bool {
+    let x = ray.start.n.map(|c| c / ray.start.w);
+    let metric = Kerr::new(-spin);
+    let velocity = metric.rate(ray.energy, &x, &ray.start.momentum()).velocity;
+    let step = 1e-6;
+    metric.radius(&std::array::from_fn(|i| x[i] + step * velocity[i])) < metric.radius(&x)
 }

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Random, Worst, distance, folded, follow, largest};
-use kerrscope_spacetime::geodesic::{Integrator, Query, Ray, Scheme, Side, Straight};
+use kerrscope_spacetime::geodesic::{EXIT, Integrator, Query, Ray, Scheme, Side, Straight};
 use kerrscope_spacetime::kerr::{Orbits, ergosphere, horizons};
 use kerrscope_spacetime::metric::{Kerr, Metric, Minkowski};
 use kerrscope_spacetime::observer::{Motion, Observer, ObserverError, Place, check, impact_ray};
@@ -255,7 +255,8 @@ fn four_velocities() {
             let error = apart(&got, &[energy, 0.0, 0.0, -angular], r) * norm * norm / cancel;
             worst.see(error, || format!("orbit, a = {spin}, r = {r}"));
         }
-        let place = Place { r: outer * random.scale(1.05, 1e4), theta: random.within(0.05, 3.0), phi: 0.3 };
+        // Closer to the horizon a falling camera is in the other chart.
+        let place = Place { r: outer * random.scale(EXIT, 1e4), theta: random.within(0.05, 3.0), phi: 0.3 };
         let observer = Observer::new(Some(spin), place, Motion::Fall).unwrap();
         let frame = Frame::new(spin, &observer);
         let got = boyer_lindquist(s, &place, &observer.position(), &frame.u);
@@ -341,7 +342,7 @@ fn velocities() {
 #[test]
 fn aberration() {
     let mut worst = Worst::default();
-    for r in [2.1, 3.0, 8.0, 100.0, 1e6_f64] {
+    for r in [2.3, 3.0, 8.0, 100.0, 1e6_f64] {
         let v = (2.0 / r).sqrt();
         let place = Place { r, theta: 1.1, phi: 0.2 };
         let rest = Observer::new(Some(0.0), place, Motion::Static).unwrap();
@@ -492,7 +493,7 @@ fn impossible_observers() {
     assert_eq!(refuse(Some(0.9), place(f64::INFINITY, 1.0), Motion::Fall), ObserverError::MovingAtInfinity);
     assert_eq!(
         Observer::new(Some(0.9), place(f64::INFINITY, 1.0), Motion::Static).unwrap_err(),
-        ObserverError::MovingAtInfinity
+        ObserverError::AtInfinity
     );
     // Too oblique to get there.
     let error = impact_ray(Some(0.5), 1.0, 10.0, [13.0, 0.0]).unwrap_err();

@@ -57,13 +57,21 @@ fn a_falling_camera_sees_no_horizon() {
             let path = trace(spin, &ray, 1e-11);
             assert_eq!(path.fate, Fate::Escaped, "a = {spin}, delta = {delta}");
             assert!(path.error_estimate < 1e-8);
-            (ray.energy.abs(), path.direction.unwrap()[0])
+            let [theta, phi] = path.direction.unwrap();
+            (ray.energy.abs(), theta, phi)
         };
-        let (energy, theta) = look(-1e-9);
+        let (energy, theta, _) = look(-1e-9);
         for delta in [1e-10, 1e-9, 1e-8, 1e-6] {
-            let (e, t) = look(delta);
+            let (e, t, _) = look(delta);
             let allowed = 1e-9 + 10.0 * delta;
-            assert!((e - energy).abs() < allowed && (t - theta).abs() < allowed, "a = {spin}, delta = {delta}");
+            assert!(
+                (e - energy).abs() < allowed && (t - theta).abs() < allowed,
+                "a = {spin}, delta = {delta}"
+            );
         }
+        // Farther out the rays start in the reversed spacetime: the same sky, azimuth included.
+        let (near, far) = (look(0.1 - 1e-10), look(0.1 + 1e-10));
+        let apart = (near.0 - far.0).abs() + (near.1 - far.1).abs() + (near.2 - far.2).abs();
+        assert!(apart < 1e-8, "a = {spin}: {near:?} {far:?}");
     }
 }

@@ -49,7 +49,7 @@ pub enum Stop {
     Fell,
     /// It rose through the horizon and is outside.
     Rose,
-    /// It turned back before it was outside.
+    /// It is outside the horizon and on its way in.
     Sank,
     /// Steps ran out or could not be made small enough.
     GaveUp,

@@ -28,7 +28,8 @@ impl Builder<'_> {
                 ScreenKind::Angular { height: height.to_radians() }
             }
             file::ScreenKind::Impact => {
-                if observer.motion != Motion::Static {
+                // At infinity every observer has to be static; that is said of the observer.
+                if observer.motion != Motion::Static && observer.place.r.is_finite() {
                     self.fault(
                         &["observer.motion", "screen.kind"],
                         "the impact parameters of `screen.kind = \"impact\"` are those that a static observer sees",
