@@ -196,6 +196,22 @@ fn inverse_components_invert() {
     determinants.below(1e-14, "determinant");
 }
 
+/// Any symmetric tensor, not only one of the form η + f l l, whose minors vanish by halves.
+#[test]
+fn inverses_of_symmetric_tensors() {
+    let mut random = Random::new(12);
+    let mut worst = Worst::default();
+    for _ in 0..2000 {
+        let any: Tensor<f64> = std::array::from_fn(|_| std::array::from_fn(|_| random.within(-1.0, 1.0)));
+        let m: Tensor<f64> = std::array::from_fn(|i| std::array::from_fn(|k| any[i.min(k)][i.max(k)]));
+        let condition = 1.0 / determinant(&m).abs();
+        let other = inverse(&m);
+        worst.see(unit_error(&other, &m) / condition, || format!("{m:?}"));
+        assert!((0..4).all(|i| (0..4).all(|k| other[i][k] == other[k][i])));
+    }
+    worst.below(1e-14, "inverse");
+}
+
 /// Leibniz's sum over the 24 permutations.
 fn determinant(m: &Tensor<f64>) -> f64 {
     let mut sum = 0.0;

@@ -7,7 +7,7 @@ use crate::metric::Metric;
 use crate::scalar::Scalar;
 use crate::tensor::dot;
 
-/// Photons of one energy, the state being (x, p), and T of [`super::inverted`] if `D` is 7.
+/// Photons of one energy, the state being (x, p), and T of [`super::InvertedFlow`] if `D` is 7.
 #[derive(Clone, Copy, Debug)]
 pub struct AffineFlow<M, S> {
     /// The spacetime.

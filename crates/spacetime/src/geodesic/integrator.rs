@@ -6,7 +6,6 @@ use super::log::{Log, Origin};
 use super::method::{Dop853, Method, Rk4, Tsit5};
 use super::walk::{Bounds, Control, End, Stop, walk};
 use super::{AffineFlow, Fate, Path, Query, Ray, Side, Tracer};
-use crate::dual::Dual;
 use crate::metric::{Inverted, Metric};
 use crate::tensor::dot;
 
@@ -85,19 +84,12 @@ impl<M: Metric> Integrator<M> {
         Control { tolerance: STEP_SHARE * tolerance, step, max_steps: self.max_steps, max_turn: MAX_TURN }
     }
 
-    /// From inside the horizon to outside it in ingoing coordinates, then on.
+    /// From inside the horizon, or next to it, to outside it in ingoing coordinates, then on.
     fn rise(&self, ray: &Ray, query: &Query, path: &mut Path) {
         let metric = self.ingoing;
         let inverse_horizon = 1.0 / metric.horizon();
-        // Boyer–Lindquist time diverges at the horizon, so none has elapsed from there.
-        let rest = Query { elapsed: false, points: 0, ..*query };
-        let (depth, deeper) = self.depth(ray);
-        if depth < inverse_horizon && deeper {
-            // From just outside, towards the past horizon or a turning point before it.
-            self.follow(&self.surfaced(ray, &ray.start, 0.0), &rest, path);
-            return;
-        }
-        if depth >= inverse_horizon && !metric.rises(ray.energy, ray.start.j[2]) {
+        let inside = metric.inverse_radius(ray.start.w, &ray.start.n) >= inverse_horizon;
+        if inside && !metric.rises(ray.energy, ray.start.j[2]) {
             path.fate = Fate::Captured;
             path.error_estimate = f64::EPSILON;
             return;
@@ -128,29 +120,6 @@ impl<M: Metric> Integrator<M> {
                 self.follow(&outside, &Query { elapsed: false, points: 0, ..*query }, path);
             }
             _ => path.fate = Fate::StepLimit,
-        }
-    }
-
-    /// 1/r at the start of a ray in ingoing coordinates, and whether it grows.
-    fn depth(&self, ray: &Ray) -> (f64, bool) {
-        let Inverted { w, n, .. } = ray.start;
-        let rate = self.ingoing.inverted_rate(ray.energy, &ray.start);
-        let moving = |value, slope| Dual { value, gradient: [slope] };
-        let place: [_; 3] = std::array::from_fn(|i| moving(n[i], rate.n[i]));
-        let depth = self.ingoing.inverse_radius(moving(w, rate.w), &place);
-        (depth.value, depth.gradient[0] > 0.0)
-    }
-
-    /// A ray in ingoing coordinates that has come to `state` outside the horizon, on the sheet on
-    /// which it goes on.
-    fn surfaced(&self, ray: &Ray, state: &Inverted<f64>, swept: f64) -> Ray {
-        let r = 1.0 / self.ingoing.inverse_radius(state.w, &state.n);
-        let (before, after) = (self.ingoing.azimuth_offset(r), self.reversed.azimuth_offset(r));
-        Ray {
-            start: self.ingoing.change_sheet(ray.energy, state),
-            energy: -ray.energy,
-            side: Side::Reversed,
-            azimuth: ray.azimuth + swept - before + after,
         }
     }
 

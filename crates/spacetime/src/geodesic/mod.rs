@@ -64,7 +64,8 @@ pub struct Crossing {
     pub position: Vec3<f64>,
     /// Boyer–Lindquist radius, M.
     pub r: f64,
-    /// Boyer–Lindquist azimuth, radians, unwrapped along the ray from the camera.
+    /// Boyer–Lindquist azimuth, radians, unwrapped along the ray from the camera. NaN inside the
+    /// horizon, where there is none.
     pub phi: f64,
     /// Coordinate time from the crossing to the camera, M; for a camera at infinity
     /// less r + 2 ln(r/2) of the camera, r → ∞. NaN unless asked for.

@@ -40,7 +40,7 @@ pub trait Metric: Copy + Send + Sync {
         rate_from_components(self, energy, x, p)
     }
 
-    /// The same in the inverted chart of [`crate::geodesic::inverted`].
+    /// The same in the inverted chart of [`Inverted`].
     #[inline(always)]
     fn inverted_rate<S: Scalar>(&self, energy: S, state: &Inverted<S>) -> Inverted<S> {
         inverted_from_rate(self, energy, state)
@@ -95,7 +95,8 @@ pub trait Metric: Copy + Send + Sync {
         None
     }
 
-    /// 1/radius in the inverted chart, regular at infinity.
+    /// 1/radius in the inverted chart. As it stands here it is not a number at w = 0: a metric that
+    /// rays are to reach infinity in overrides it.
     #[inline(always)]
     fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
         self.radius(&n.map(|c| c / w)).recip()
