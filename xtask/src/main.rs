@@ -4,14 +4,16 @@
 //!     cargo xtask check            formatting, lints, documentation
 //!     cargo xtask pictures         the pictures of README.md and scenes/
 //!     cargo xtask campaign NAME    longer work, its dated report kept in reports/
+//!     cargo xtask sky-data FOLDER  data of the sky again; see crates/kerrscope/data/README.md
 
 mod campaign;
 mod pictures;
+mod sky_data;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME";
+const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME | sky-data FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -21,6 +23,7 @@ fn main() -> ExitCode {
         ["check"] => check(),
         ["pictures"] => pictures::draw(&root()),
         ["campaign", name] => campaign::run(&root(), name),
+        ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

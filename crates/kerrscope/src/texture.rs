@@ -2,10 +2,16 @@
 //!
 //! - `u` runs from 0 at the left edge to 1 at the right, `v` from 0 at the top edge to
 //!   1 at the bottom. The centre of pixel (i, j) is at ((i + ½)/width, (j + ½)/height).
-//! - Files are PNG or JPEG, grey or RGB, with or without alpha, 8 or 16 bits. Their
-//!   values are taken as sRGB; gamma chunks and colour profiles are not read. The
-//!   orientation that a camera noted (EXIF) is applied.
-//! - The values are kept as the file has them, 1 to 8 bytes a pixel, and decoded through
+//! - Files are PNG, JPEG, TIFF, WebP, Radiance HDR or OpenEXR, grey or RGB, with or
+//!   without alpha. Integers of 8 or 16 bits are taken as sRGB, floating-point numbers as
+//!   linear light of the same primaries; gamma chunks, colour profiles and chromaticities
+//!   are not read. The orientation that a camera noted (EXIF) is applied.
+//! - Light from floating-point numbers is kept with 16 bits (11 significant ones, from
+//!   6e-8 to 65504, what is outside brought to these, what is no number dark). An EXR is
+//!   read block by block into at most 256 MiB: one of 8192×4096 RGB is kept whole, a larger
+//!   one is halved, by the mean of 2×2 pixels, until it fits. Pictures of other formats
+//!   are decoded whole, in at most 1 GiB, or refused.
+//! - Integers are kept as the file has them, 1 to 8 bytes a pixel, and decoded through
 //!   a table when sampled. That loses nothing, and a panorama of 8192×4096 takes 100 MB
 //!   instead of the 400 MB of linear 32-bit numbers; linear 16-bit integers would merge
 //!   the darkest steps of a 16-bit file.
@@ -13,6 +19,7 @@
 //!   transparent pixel happens to have must not bleed into its neighbours.
 
 mod error;
+mod exr;
 mod jpeg;
 
 use std::fs::File;
@@ -20,6 +27,7 @@ use std::io::{Cursor, Read};
 use std::path::Path;
 use std::sync::LazyLock;
 
+use half::f16;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 pub use error::{TextureError, TextureFault};
@@ -67,13 +75,15 @@ pub struct Texture {
 enum Texels {
     Eight(Vec<u8>),
     Sixteen(Vec<u16>),
+    /// Linear light multiplied by alpha.
+    Half(Vec<f16>),
 }
 
 /// Light multiplied by alpha, and alpha.
 type Texel = [f64; 4];
 
 impl Texture {
-    /// Reads a PNG or JPEG file.
+    /// Reads a picture file.
     ///
     /// # Errors
     /// When the file cannot be read, is empty, cut short, damaged or of another format,
@@ -85,7 +95,7 @@ impl Texture {
             .map_err(|fault| TextureError { path: path.to_path_buf(), fault })
     }
 
-    /// Decodes the contents of a PNG or JPEG file.
+    /// Decodes the contents of a picture file.
     ///
     /// # Errors
     /// As [`Texture::load`], without a path.
@@ -95,7 +105,8 @@ impl Texture {
         }
         let format = image::guess_format(bytes).map_err(|_| TextureFault::Foreign(None))?;
         match format {
-            ImageFormat::Png => {}
+            ImageFormat::OpenExr => return exr::decode(bytes),
+            ImageFormat::Png | ImageFormat::Tiff | ImageFormat::WebP | ImageFormat::Hdr => {}
             // The JPEG decoder fills what is missing with grey.
             ImageFormat::Jpeg if jpeg::is_whole(bytes) => {}
             ImageFormat::Jpeg => return Err(TextureFault::Truncated),
@@ -108,6 +119,9 @@ impl Texture {
             .into_decoder()
             .map_err(TextureFault::from_image)?;
         let (width, height) = decoder.dimensions();
+        if width == 0 || height == 0 {
+            return Err(TextureFault::Damaged("the picture has no pixels".to_owned()));
+        }
         if width > MAX_EDGE || height > MAX_EDGE || decoder.total_bytes() > MAX_BYTES {
             return Err(TextureFault::TooLarge { width, height });
         }
@@ -131,6 +145,11 @@ impl Texture {
             DynamicImage::ImageLuma16(i) => (1, Texels::Sixteen(i.into_raw())),
             DynamicImage::ImageLumaA16(i) => (2, Texels::Sixteen(i.into_raw())),
             DynamicImage::ImageRgb16(i) => (3, Texels::Sixteen(i.into_raw())),
+            DynamicImage::ImageRgb32F(i) => (3, Texels::Half(i.into_raw().into_iter().map(half).collect())),
+            DynamicImage::ImageRgba32F(i) => {
+                let times_alpha = |p: &[f32]| [p[0] * p[3], p[1] * p[3], p[2] * p[3], p[3]].map(half);
+                (4, Texels::Half(i.as_raw().chunks_exact(4).flat_map(times_alpha).collect()))
+            }
             other => (4, Texels::Sixteen(other.into_rgba16().into_raw())),
         };
         Self { width, height, channels, texels }
@@ -144,6 +163,28 @@ impl Texture {
     /// Height in pixels.
     pub const fn height(&self) -> u32 {
         self.height
+    }
+
+    /// The picture made smaller by 2^`level` in both directions, each pixel the mean of those it
+    /// covers; at least 1×1.
+    pub fn reduced(&self, level: u32) -> Self {
+        let [width, height] = [self.width, self.height].map(|n| n.checked_shr(level).unwrap_or(0).max(1));
+        let channels = if matches!(self.channels, 2 | 4) { 4 } else { 3 };
+        let columns: Vec<_> = (0..width).map(|x| shares(x, self.width, width)).collect();
+        let mut texels = Vec::with_capacity(width as usize * height as usize * channels);
+        for y in 0..height {
+            let mut row = vec![[0.0; 4]; width as usize];
+            for &(y, share) in &shares(y, self.height, height) {
+                for (sum, columns) in row.iter_mut().zip(&columns) {
+                    for &(x, part) in columns {
+                        let texel = self.texel(x, y);
+                        *sum = std::array::from_fn(|k| sum[k] + share * part * texel[k]);
+                    }
+                }
+            }
+            texels.extend(row.iter().flat_map(|texel| texel[..channels].iter().map(|&c| half(c as f32))));
+        }
+        Self { width, height, channels, texels: Texels::Half(texels) }
     }
 
     /// Light (scaled by alpha) and alpha at a place, interpolated between the four
@@ -179,6 +220,13 @@ impl Texture {
         match &self.texels {
             Texels::Eight(all) => texel(&all[codes], &LINEAR_8),
             Texels::Sixteen(all) => texel(&all[codes], &LINEAR_16),
+            Texels::Half(all) => {
+                let mut texel = [0.0, 0.0, 0.0, 1.0];
+                for (to, from) in texel.iter_mut().zip(&all[codes]) {
+                    *to = from.to_f64();
+                }
+                texel
+            }
         }
     }
 }
@@ -204,6 +252,24 @@ fn texel<C: Copy + Into<u32>>(codes: &[C], linear: &[f32]) -> Texel {
         [r, g, b, a] => [light(r), light(g), light(b), 1.0].map(|c| c * alpha(a)),
         _ => [0.0; 4],
     }
+}
+
+/// Light or alpha as it is kept.
+fn half(x: f32) -> f16 {
+    f16::from_f32(if x.is_nan() { 0.0 } else { x.clamp(0.0, f16::MAX.to_f32()) })
+}
+
+/// The pixels of a row of `from` that the pixel `at` of a row of `to` covers, with their shares in
+/// it.
+fn shares(at: u32, from: u32, to: u32) -> Vec<(usize, f64)> {
+    let ratio = f64::from(from) / f64::from(to);
+    let (begin, end) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);
+    (begin as u32..(end.ceil() as u32).min(from))
+        .map(|x| {
+            let covered = end.min(f64::from(x) + 1.0) - begin.max(f64::from(x));
+            (x as usize, covered.max(0.0) / ratio)
+        })
+        .collect()
 }
 
 fn finite(x: f64) -> f64 {

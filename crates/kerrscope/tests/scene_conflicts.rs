@@ -222,7 +222,7 @@ fn screens_that_show_nothing() {
 #[test]
 fn impossible_disks_and_skies() {
     assert_faults(
-        "[disk]\ninner = 1.1\nimage = \"a.png\"\nmapping = \"flat\"\n[sky]\nspacing = 7\nimage = \"b.png\"\n",
+        "[disk]\ninner = 1.1\nimage = \"a.png\"\nmapping = \"flat\"\n[sky]\nkind = \"grid\"\nspacing = 7\nimage = \"b.png\"\n",
         &[
             (
                 2,
@@ -243,13 +243,13 @@ fn impossible_disks_and_skies() {
                 "set `disk.model = \"image\"`, or remove `disk.mapping`",
             ),
             (
-                6,
+                7,
                 11,
                 "lines 7° apart do not divide 90° into equal parts",
                 "give a divisor of 90 such as 6 or 7.5",
             ),
             (
-                7,
+                8,
                 9,
                 "`sky.image` is used with `sky.kind = \"panorama\"` only",
                 "set `sky.kind = \"panorama\"`, or remove `sky.image`",
@@ -269,7 +269,7 @@ fn impossible_disks_and_skies() {
                 2,
                 12,
                 "`sky.kind = \"panorama\"` needs a picture, and `sky.image` is not given",
-                "give `sky.image` the path of a PNG or JPEG file",
+                "give `sky.image` the path of a PNG, JPEG, TIFF, WebP, HDR or EXR file",
             ),
         ],
     );

@@ -36,7 +36,7 @@ fn unknown_keys() {
                 7,
                 1,
                 "[sky] has no key `mass`",
-                "[sky] has the keys brightness, color, image, kind, longitude, spacing",
+                "[sky] has the keys brightness, color, frame, image, image_frame, kind, longitude, rotation, spacing",
             ),
             (8, 2, "there is no section [display]", "write [camera.display]"),
         ],
@@ -193,7 +193,7 @@ fn not_finite() {
 fn misspelt_words() {
     assert_faults(
         "[spacetime]\nname = \"Ker\"\n[observer]\nmotion = { velocity = [0, 0, 0.1], relative_to = \"fell\" }\n\
-         [disk]\ninner = \"icso\"\n[sky]\nkind = \"stars\"\n[render]\nmethod = \"rk45\"\n",
+         [disk]\ninner = \"icso\"\n[sky]\nkind = \"comets\"\n[render]\nmethod = \"rk45\"\n",
         &[
             (
                 2,
@@ -216,8 +216,8 @@ fn misspelt_words() {
             (
                 8,
                 8,
-                "`sky.kind` cannot be \"stars\"",
-                "give \"black\", \"uniform\", \"grid\" or \"panorama\"; the default is \"grid\"",
+                "`sky.kind` cannot be \"comets\"",
+                "give \"black\", \"uniform\", \"grid\", \"stars\" or \"panorama\"; the default is \"stars\"",
             ),
             (
                 10,

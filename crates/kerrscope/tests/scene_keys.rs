@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use kerrscope::disk::Mapping;
 use kerrscope::display::Tone;
 use kerrscope::scene::{self, Engine, Method, Scene, SceneFile};
+use kerrscope::sky::{Frame, Orientation};
 use kerrscope::spacetime::observer;
 
 fn scene(text: &str) -> Scene {
@@ -125,12 +126,24 @@ fn every_key() {
     let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
     assert_eq!(s.sky.picture, scene::SkyPicture::Uniform { color: [1.0; 3] });
     for spacing in ["1", "1.2", "11.25", "22.5", "90"] {
-        let s = read(&format!("[sky]\nspacing = {spacing}"));
+        let s = read(&format!("[sky]\nkind = \"grid\"\nspacing = {spacing}"));
         assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));
     }
     let s = read("sky = { kind = \"panorama\", image = \"src/lib.rs\", longitude = 0 }");
     let path: PathBuf = file.join("src/lib.rs");
-    assert_eq!(s.sky.picture, scene::SkyPicture::Panorama { path, longitude: 0.0 });
+    assert_eq!(s.sky.picture, scene::SkyPicture::Panorama { path, orientation: Orientation::upright(0.0) });
+
+    // The built-in sky: the Milky Way level, its centre straight behind the hole.
+    let level = Orientation::celestial(Frame::Equatorial, Frame::Galactic, PI);
+    assert_eq!(read("").sky.picture, scene::SkyPicture::Stars { orientation: level });
+    let s = read(
+        "sky = { kind = \"panorama\", image = \"src/lib.rs\", image_frame = \"galactic\", \
+         frame = \"equatorial\", longitude = -90, rotation = [0, 180, 90] }",
+    );
+    let path: PathBuf = file.join("src/lib.rs");
+    let orientation =
+        Orientation::celestial(Frame::Galactic, Frame::Equatorial, -0.5 * PI).turned([0.0, PI, 0.5 * PI]);
+    assert_eq!(s.sky.picture, scene::SkyPicture::Panorama { path, orientation });
 
     let s = read(
         "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\

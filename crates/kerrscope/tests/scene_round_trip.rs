@@ -5,10 +5,11 @@ use std::path::Path;
 use kerrscope::disk::Mapping;
 use kerrscope::display::Tone;
 use kerrscope::scene::file::{
-    Camera, Disk, DiskModel, Display, Inner, Isco, Motion, MotionName, Observer, RelativeTo, Render, Screen,
-    ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
+    Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Observer, RelativeTo,
+    Render, Screen, ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
 };
 use kerrscope::scene::{Engine, Method, Scene, SceneFile};
+use kerrscope::sky::Frame;
 use proptest::prelude::*;
 use proptest::{option, sample};
 
@@ -95,11 +96,15 @@ fn disks() -> impl Strategy<Value = Disk> {
 }
 
 fn skies() -> impl Strategy<Value = Sky> {
-    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Panorama];
-    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=90_u32, number(-1e6, 1e6)).prop_map(
-        |(kind, color, brightness, lines, longitude)| {
+    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
+    let frames = sample::select(vec![Frame::Galactic, Frame::Equatorial]);
+    let drawn = vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial];
+    let stands = (frames, sample::select(drawn), number(-1e6, 1e6), vector(-1e6, 1e6));
+    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=90_u32, stands).prop_map(
+        |(kind, color, brightness, lines, (frame, image_frame, longitude, rotation))| {
             let image = (kind == SkyKind::Panorama).then(|| "src/../Cargo.toml".to_owned());
-            Sky { kind, color, brightness, spacing: 90.0 / f64::from(lines), image, longitude }
+            let spacing = 90.0 / f64::from(lines);
+            Sky { kind, color, brightness, spacing, image, frame, image_frame, longitude, rotation }
         },
     )
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use kerrscope::light::Light;
-use kerrscope::sky::{Grid, Panorama, Sky};
+use kerrscope::sky::{Grid, Orientation, Panorama, Sky};
 use kerrscope::texture::Texture;
 use proptest::prelude::*;
 
@@ -21,7 +21,7 @@ fn panorama(image: &image::GrayImage, longitude: f64) -> Panorama {
     let mut file = Vec::new();
     let mut to = std::io::Cursor::new(&mut file);
     image.write_to(&mut to, image::ImageFormat::Png).unwrap();
-    Panorama { texture: Texture::decode(&file).unwrap(), longitude, brightness: 1.0 }
+    Panorama::new(Texture::decode(&file).unwrap(), 1e-3, Orientation::upright(longitude), 1.0)
 }
 
 /// Where the pixel is, from the direction of sight of a viewer at the centre who faces
@@ -85,7 +85,8 @@ fn a_panorama_has_no_seam_across_the_poles() {
 
 #[test]
 fn brightness_is_a_factor() {
-    let sky = Panorama { brightness: 3.0, ..star(36, 17, 0.0) };
+    let texture = star(36, 17, 0.0).texture().clone();
+    let sky = Panorama::new(texture, 1e-3, Orientation::upright(0.0), 3.0);
     let (theta, phi) = direction_of_pixel(36, 17, 0.0);
     assert!((sky.radiance(theta, phi).rgb[2] - 3.0).abs() < 1e-9);
 

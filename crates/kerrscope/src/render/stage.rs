@@ -5,8 +5,8 @@ use crate::camera::Camera;
 use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::{Beam, Light};
-use crate::scene::{self, Method, Scene, SkyPicture, Spacetime};
-use crate::sky::{Grid, Panorama, Sky};
+use crate::scene::{self, Method, Scene, ScreenKind, SkyPicture, Spacetime};
+use crate::sky::{Grid, Panorama, Sky, Stars};
 use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Scheme, Straight, Tracer};
 use crate::spacetime::metric::{Kerr, Schwarzschild};
 use crate::spacetime::observer::ObserverError;
@@ -61,7 +61,7 @@ impl Stage {
             tracer: tracer(scene),
             query,
             disk,
-            sky: sky(&scene.sky)?,
+            sky: sky(scene)?,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
         })
     }
@@ -159,15 +159,28 @@ fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
     })
 }
 
-fn sky(sky: &scene::Sky) -> Result<Sky, TextureError> {
+/// The sky, as fine as the picture can show it.
+fn sky(scene: &Scene) -> Result<Sky, TextureError> {
+    let sky = &scene.sky;
+    let pixels = f64::from(scene.render.height);
+    // Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
+    let pixel = match scene.screen.kind {
+        ScreenKind::Pinhole { height } => 2.0 * (0.5 * height).tan() / pixels,
+        ScreenKind::Angular { height } => height / pixels,
+        // For a distant observer this is nothing; then what deflection by 4/b makes of it at the
+        // picture's edge.
+        ScreenKind::Impact { height } => {
+            let deflection = 4.0 / (0.5 * height).powi(2);
+            height / pixels * deflection.min(1.0).max(scene.observer.place.r.recip())
+        }
+    };
     Ok(match &sky.picture {
         SkyPicture::Black => Sky::Black,
         SkyPicture::Uniform { color } => Sky::Uniform(linear(*color) * sky.brightness),
         SkyPicture::Grid { color, spacing } => Sky::Grid(Grid::new(*spacing, linear(*color), sky.brightness)),
-        SkyPicture::Panorama { path, longitude } => Sky::Panorama(Panorama {
-            texture: Texture::load(path)?,
-            longitude: *longitude,
-            brightness: sky.brightness,
-        }),
+        SkyPicture::Stars { orientation } => Sky::Stars(Stars::new(pixel, *orientation, sky.brightness)),
+        SkyPicture::Panorama { path, orientation } => {
+            Sky::Panorama(Panorama::new(Texture::load(path)?, pixel, *orientation, sky.brightness))
+        }
     })
 }

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::disk::Mapping;
 use crate::display::Tone;
+use crate::sky::Orientation;
 use kerrscope_spacetime::observer::{Motion, Place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -139,12 +140,17 @@ pub enum SkyPicture {
         /// Angle in radians between lines; divides a right angle.
         spacing: f64,
     },
+    /// The stars of the catalogue and the Milky Way.
+    Stars {
+        /// How equatorial coordinates of J2000 stand.
+        orientation: Orientation,
+    },
     /// A picture of the whole sky.
     Panorama {
         /// The file, as seen from the current folder. It existed when the scene was built.
         path: PathBuf,
-        /// Azimuth in radians at the picture's middle.
-        longitude: f64,
+        /// How it stands.
+        orientation: Orientation,
     },
 }
 

@@ -5,13 +5,25 @@
 //!
 //! The sky is seen from inside. To a viewer at the centre with +z up, azimuth grows to
 //! the left, so what is to the right in a panorama lies at smaller azimuth; see
-//! [`Panorama`].
+//! [`Panorama`]. Longitudes of the real sky (galactic longitude, right ascension) grow to
+//! the left as well when north is up, so that they increase with azimuth; see
+//! [`Orientation`].
 
+mod catalogue;
+mod color;
+mod cube;
+mod glow;
 mod grid;
+mod orientation;
 mod panorama;
+mod stars;
 
+pub use catalogue::Star;
+pub use glow::Glow;
 pub use grid::Grid;
+pub use orientation::{Frame, Orientation};
 pub use panorama::Panorama;
+pub use stars::Stars;
 
 use crate::light::Light;
 
@@ -33,6 +45,8 @@ pub enum Sky {
     Uniform(Light),
     /// Lines of latitude and longitude.
     Grid(Grid),
+    /// The stars and the Milky Way.
+    Stars(Stars),
     /// A picture of the whole sky.
     Panorama(Panorama),
 }
@@ -44,6 +58,7 @@ impl Sky {
             Self::Black => Light::DARK,
             Self::Uniform(light) => *light,
             Self::Grid(grid) => grid.radiance(theta, phi),
+            Self::Stars(stars) => stars.radiance(theta, phi),
             Self::Panorama(panorama) => panorama.radiance(theta, phi),
         }
     }

@@ -26,8 +26,11 @@ pub enum TextureFault {
     #[error("the file is empty")]
     Empty,
     /// The file is in another format, named if it is known.
-    #[error("it is not a PNG or JPEG file{}", .0.as_ref().map(|n| format!(" but {n}")).unwrap_or_default())]
+    #[error("it is not a PNG, JPEG, TIFF, WebP, HDR or EXR file{}", .0.as_ref().map(|n| format!(" but {n}")).unwrap_or_default())]
     Foreign(Option<String>),
+    /// The format's way of saying this is not known here.
+    #[error("it is of a kind that cannot be read ({0})")]
+    Unsupported(String),
     /// The file ends before the picture does.
     #[error("the file ends before the picture does")]
     Truncated,
@@ -54,6 +57,7 @@ impl TextureFault {
         match error {
             ImageError::IoError(e) if e.kind() == io::ErrorKind::UnexpectedEof => Self::Truncated,
             ImageError::IoError(e) => Self::Io(e),
+            ImageError::Unsupported(e) => Self::Unsupported(e.to_string()),
             other => Self::Damaged(other.to_string()),
         }
     }
@@ -67,7 +71,8 @@ impl TextureFault {
                 io::ErrorKind::IsADirectory => "give a file in that folder",
                 _ => "check the file and the disk that it is on",
             },
-            Self::Foreign(_) => "convert it to PNG or JPEG",
+            Self::Foreign(_) => "convert it to PNG, JPEG or EXR",
+            Self::Unsupported(_) => "export it as RGB, in 8 or 16 bits",
             Self::Empty | Self::Truncated | Self::Damaged(_) => "fetch or export the picture again",
             Self::TooLarge { .. } | Self::FileTooLarge => "scale the picture down",
         }

@@ -14,6 +14,7 @@ use super::file::{self, SceneFile, SpacetimeName};
 use super::tree::Node;
 use super::valid::{Display, Method, Render, Sky, SkyPicture, Spacetime};
 use super::{Scene, shape};
+use crate::sky::{Frame, Orientation};
 
 /// The largest number of rays in a picture: width × height × samples.
 const MAX_RAYS: u64 = 1 << 36;
@@ -99,6 +100,14 @@ impl Builder<'_> {
 
     fn sky(&mut self, file: &file::Sky) -> Sky {
         let color = file.color;
+        let azimuth = file.longitude.to_radians();
+        let stands = |known: Option<Frame>| {
+            known
+                .map_or(Orientation::upright(azimuth), |known| {
+                    Orientation::celestial(known, file.frame, azimuth)
+                })
+                .turned(file.rotation.map(f64::to_radians))
+        };
         let picture = match file.kind {
             file::SkyKind::Black => SkyPicture::Black,
             file::SkyKind::Uniform => SkyPicture::Uniform { color },
@@ -120,11 +129,18 @@ impl Builder<'_> {
             }
             file::SkyKind::Panorama => SkyPicture::Panorama {
                 path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
-                longitude: file.longitude.to_radians(),
+                orientation: stands(match file.image_frame {
+                    file::ImageFrame::Scene => None,
+                    file::ImageFrame::Galactic => Some(Frame::Galactic),
+                    file::ImageFrame::Equatorial => Some(Frame::Equatorial),
+                }),
             },
+            file::SkyKind::Stars => SkyPicture::Stars { orientation: stands(Some(Frame::Equatorial)) },
         };
         // The word for no sky leaves the picture unused on purpose; others may be a slip.
-        if file.image.is_some() && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid) {
+        if file.image.is_some()
+            && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid | file::SkyKind::Stars)
+        {
             self.unused("sky.image", "sky.kind", "panorama");
         }
         Sky { picture, brightness: file.brightness }
@@ -189,7 +205,7 @@ impl Builder<'_> {
             self.fault(
                 &[chooser, key],
                 format!("`{chooser} = \"{kind}\"` needs a picture, and `{key}` is not given"),
-                format!("give `{key}` the path of a PNG or JPEG file"),
+                format!("give `{key}` the path of a PNG, JPEG, TIFF, WebP, HDR or EXR file"),
             );
             return PathBuf::new();
         };

@@ -16,7 +16,7 @@ pub use observer::{Motion, MotionName, Observer, RelativeTo, Velocity};
 pub(super) use render::RK4_STEP;
 pub use render::{Camera, Display, Render};
 pub use screen::{Screen, ScreenKind};
-pub use sky::{Sky, SkyKind};
+pub use sky::{ImageFrame, Sky, SkyKind};
 pub use spacetime::{Spacetime, SpacetimeName};
 
 use schemars::JsonSchema;
