@@ -10,9 +10,9 @@ mod progress;
 mod render;
 mod report;
 mod scene;
-mod source;
 mod shadow;
 mod side_view;
+mod source;
 mod trace;
 mod validate;
 
@@ -81,7 +81,8 @@ enum Format {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.talk.verbose {
-        let colour = std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        let colour =
+            std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
         tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).with_ansi(colour).init();
     }
     let outcome = match arguments.command.unwrap_or(Command::Render(render::Arguments::default())) {

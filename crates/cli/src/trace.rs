@@ -163,7 +163,8 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
     };
     if arguments.source.scene.is_some() || !arguments.source.set.is_empty() {
         return Err(Failure::Input(
-            "a scene and --set do not go with --spin and --inclination: leave out one or the other".to_owned(),
+            "a scene and --set do not go with --spin and --inclination: leave out one or the other"
+                .to_owned(),
         ));
     }
     if let Some(engine) = arguments.engine.as_deref().filter(|e| !matches!(*e, "auto" | "integrator")) {

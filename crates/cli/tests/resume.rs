@@ -17,8 +17,7 @@ const OUTPUT: [&str; 5] = ["render", "scene.toml", "-o", "a.exr", "--resume"];
 
 /// Starts a render and kills it after some time; whether it was still at work.
 fn killed_after(folder: &Path, milliseconds: u64) -> bool {
-    let mut child =
-        program(folder, &OUTPUT).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = program(folder, &OUTPUT).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(milliseconds));
     let killed = child.try_wait().unwrap().is_none();
     child.kill().unwrap();
@@ -61,7 +60,8 @@ fn a_checkpoint_of_another_scene_is_refused() {
     assert!(text.contains("a.exr.checkpoint") && text.contains("another scene"), "{text}");
     assert_eq!(fs::read(path.join("a.exr.checkpoint")).unwrap(), before);
     // Without --resume the other scene starts afresh.
-    let small = ["render", "scene.toml", "-o", "a.exr", "--set", "render.width=16", "--set", "render.height=9"];
+    let small =
+        ["render", "scene.toml", "-o", "a.exr", "--set", "render.width=16", "--set", "render.height=9"];
     assert!(run(path, &small).status.success());
 }
 

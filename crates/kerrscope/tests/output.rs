@@ -55,8 +55,7 @@ fn pixels_are_the_nearest_steps_of_their_display_values() {
 
 #[test]
 fn rows_go_from_the_top() {
-    let pixels =
-        vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3], [0.0; 3], [1.0, 1.0, 0.0]];
+    let pixels = vec![[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0; 3], [0.0; 3], [1.0, 1.0, 0.0]];
     let picture = Picture { width: 2, height: 3, pixels };
     let image = image::load_from_memory(&encode(&picture, Depth::Eight)).unwrap();
     assert_eq!(image.to_rgb8().get_pixel(1, 0).0, [0, 255, 0]);

@@ -209,6 +209,11 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         let (along_y, along_x) = (x.value * inverse, self.value * inverse);
         self.zip(x, self.value.atan2(x.value), |dy, dx| dy * along_y - dx * along_x)
     }
+    /// A step function: its derivatives are zero.
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self::fixed(self.value.round())
+    }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         self.value.less(other.value)

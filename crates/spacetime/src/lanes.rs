@@ -148,6 +148,10 @@ impl<L: Simd> Scalar for Lanes<L> {
         Self(mask.select(a.0, b.0))
     }
     #[inline(always)]
+    fn round(self) -> Self {
+        Self(self.0.round_ties_even())
+    }
+    #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
         self.0[lane]
     }

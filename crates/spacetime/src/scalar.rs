@@ -68,6 +68,8 @@ pub trait Scalar:
     fn less(self, other: Self) -> Self::Mask;
     /// `a` where the mask is true, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// The nearest whole number; halves go to the even one.
+    fn round(self) -> Self;
     /// The real number in one lane; `lane` must be below [`Scalar::LANES`].
     fn lane(self, lane: usize) -> f64;
 
@@ -134,6 +136,10 @@ impl Scalar for f64 {
     #[inline(always)]
     fn select(mask: bool, a: Self, b: Self) -> Self {
         if mask { a } else { b }
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.round_ties_even()
     }
     #[inline(always)]
     fn lane(self, _lane: usize) -> f64 {

@@ -58,8 +58,7 @@ pub fn encode(mut to: impl Write, film: &Film, provenance: &Provenance) -> io::R
         ..LayerAttributes::default()
     };
     let size = (film.width as usize, film.height as usize);
-    let layer =
-        Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.collect()));
+    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels.collect()));
     let mut image = Image::from_layer(layer);
     // IEC 61966-2-1.
     image.attributes.chromaticities = Some(Chromaticities {

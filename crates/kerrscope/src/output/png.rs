@@ -47,12 +47,7 @@ const KEYWORD: &str = "kerrscope";
 ///
 /// # Panics
 /// When there are not `width` × `height` pixels, or none.
-pub fn write(
-    path: &Path,
-    picture: &Picture,
-    depth: Depth,
-    provenance: &Provenance,
-) -> Result<(), FileError> {
+pub fn write(path: &Path, picture: &Picture, depth: Depth, provenance: &Provenance) -> Result<(), FileError> {
     write_atomically(path, |to| encode(to, picture, depth, provenance))
 }
 

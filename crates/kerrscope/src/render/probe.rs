@@ -25,7 +25,11 @@ impl Probe {
             windings: layers.contains(&Layer::Windings),
             ..*query
         };
-        Self { channels: layers.iter().copied().flat_map(Layer::channels).collect(), query, spin: scene.spacetime.spin() }
+        Self {
+            channels: layers.iter().copied().flat_map(Layer::channels).collect(),
+            query,
+            spin: scene.spacetime.spin(),
+        }
     }
 
     pub(super) fn channels(&self) -> &[Channel] {

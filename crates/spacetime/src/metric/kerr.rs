@@ -27,6 +27,16 @@ impl Kerr {
     pub const fn spin(&self) -> f64 {
         self.spin
     }
+
+    /// w r, which is 1 at infinity.
+    pub(crate) fn scaled_radius(&self, state: &Inverted<f64>) -> f64 {
+        Field::at(&state.n, state.w * self.spin).r
+    }
+
+    /// The spatial part of l.
+    pub(crate) fn principal_null(&self, state: &Inverted<f64>) -> Vec3<f64> {
+        Field::at(&state.n, state.w * self.spin).l
+    }
 }
 
 /// The quantities of the metric at a point.
@@ -259,6 +269,10 @@ impl Metric for Kerr {
 
     fn carter(&self, energy: f64, state: &Inverted<f64>) -> Option<f64> {
         Some(crate::kerr::carter(self.spin, energy, state))
+    }
+
+    fn windings(&self, energy: f64, start: &Inverted<f64>) -> f64 {
+        crate::closed::windings(self, energy, start)
     }
 
     #[inline(always)]

@@ -95,6 +95,12 @@ pub trait Metric: Copy + Send + Sync {
         None
     }
 
+    /// How often light goes round from its start on, as
+    /// [`Path::windings`](crate::geodesic::Path::windings) has it; NaN where that is not known.
+    fn windings(&self, _energy: f64, _start: &Inverted<f64>) -> f64 {
+        f64::NAN
+    }
+
     /// 1/radius in the inverted chart. As it stands here it is not a number at w = 0: a metric that
     /// rays are to reach infinity in overrides it.
     #[inline(always)]
