@@ -209,6 +209,14 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         let (along_y, along_x) = (x.value * inverse, self.value * inverse);
         self.zip(x, self.value.atan2(x.value), |dy, dx| dy * along_y - dx * along_x)
     }
+    #[inline(always)]
+    fn outline<R>(self, part: impl FnOnce() -> R) -> R {
+        self.value.outline(part)
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        S::any(mask)
+    }
     /// A step function: its derivatives are zero.
     #[inline(always)]
     fn round(self) -> Self {

@@ -24,5 +24,5 @@ mod scalar;
 pub mod tensor;
 
 pub use dual::Dual;
-pub use lanes::Lanes;
+pub use lanes::{Lanes, Level, OnLanes};
 pub use scalar::Scalar;

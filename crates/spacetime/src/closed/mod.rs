@@ -10,6 +10,8 @@
 //! Literature: Dexter & Agol 2009, ApJ 696, 1616; Gralla & Lupsasca 2020, PRD 101, 044032; Cieślik & Mach
 //! 2022, CQG 39, 225003 (radius by ℘).
 
+mod batch;
+mod kernel;
 mod photon;
 mod polar;
 mod quadrature;

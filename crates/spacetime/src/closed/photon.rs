@@ -1,7 +1,7 @@
 //! A photon in the separated equations of motion.
 
 use crate::kerr::carter;
-use crate::metric::{Inverted, Kerr};
+use crate::metric::{Inverted, principal_null, scaled_radius};
 use crate::scalar::Scalar;
 use crate::tensor::dot;
 
@@ -29,33 +29,29 @@ pub struct Photon<S> {
     pub mu_rate: S,
 }
 
-impl Photon<f64> {
-    /// A photon around a hole of spin s; none where its energy at infinity is not positive, as it can be
-    /// for cameras in the ergosphere.
+impl<S: Scalar> Photon<S> {
+    /// A photon of energy E > 0 around a hole of spin s.
     ///
-    /// With p = q n + w k, k = J × n, r̂ = w r and ŝ = w s:
+    /// With p = q n + w k, k = J × n, r̂ = w r:
     ///   μ′ = r̂ k_z − q n_z w s² sin²θ/r̂,   u′ = −[Δ̂ l·p − (2u − sλu²)],   Δ̂ = 1 − 2u + s²u²,
     /// the second because l·p is p_r of Kerr–Schild coordinates; both for E = 1.
-    pub fn new(spin: f64, energy: f64, state: &Inverted<f64>) -> Option<Self> {
-        if !(energy > 0.0) {
-            return None;
-        }
-        let metric = Kerr::new(spin);
-        let inverse_energy = 1.0 / energy;
+    #[inline(always)]
+    pub fn new(spin: S, energy: S, state: &Inverted<S>) -> Self {
+        let per_energy = energy.recip();
         let [nx, ny, nz] = state.n;
-        let [jx, jy, jz] = state.j.map(|c| c * inverse_energy);
-        let q = state.q * inverse_energy;
-        let scaled = metric.scaled_radius(state);
-        let mu = nz / scaled;
-        let u = state.w / scaled;
-        let lambda = jz;
-        let drop = state.w * spin * spin * (1.0 - mu * mu) * nz / scaled;
-        let mu_rate = scaled * (jx * ny - jy * nx) - q * drop;
-        let along = dot(&metric.principal_null(state), &state.momentum()) * inverse_energy;
-        let delta = 1.0 - u * (2.0 - spin * spin * u);
-        let u_rate = u * (2.0 - spin * lambda * u) - delta * along;
-        let eta = carter(spin, energy, state) * inverse_energy * inverse_energy;
-        Some(Self { spin, lambda, eta, u, u_rate, mu, mu_rate })
+        let [jx, jy, lambda] = state.j.map(|c| c * per_energy);
+        let scaled = scaled_radius(spin, state);
+        let per_scaled = scaled.recip();
+        let mu = nz * per_scaled;
+        let u = state.w * per_scaled;
+        let s2 = spin * spin;
+        let drop = state.w * s2 * (-(mu * mu) + 1.0) * mu;
+        let mu_rate = scaled * (jx * ny - jy * nx) - state.q * per_energy * drop;
+        let along = dot(&principal_null(spin, state), &state.momentum()) * per_energy;
+        let delta = u * (s2 * u - 2.0) + 1.0;
+        let u_rate = u * (-(spin * lambda * u) + 2.0) - delta * along;
+        let eta = carter(spin, energy, state) * per_energy * per_energy;
+        Self { spin, lambda, eta, u, u_rate, mu, mu_rate }
     }
 }
 

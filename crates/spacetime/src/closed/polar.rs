@@ -26,6 +26,9 @@ pub const FEW_REACH: f64 = 0.02;
 /// Terms that are enough for any photon: |q| nears 1 only for light that all but falls straight in.
 pub const MANY: usize = 160;
 
+/// Phases closer than this to the plane are in it.
+const NEAR: f64 = 1e-12;
+
 /// cos(πj/N) for j from 0 to 2N − 1.
 #[derive(Clone, Debug)]
 pub struct Cosines<const N: usize>([[f64; N]; 2]);
@@ -129,7 +132,8 @@ fn first_nome<S: Scalar>(complement: S) -> S {
 }
 
 /// About |q| of a photon with η > 0: beyond [`FEW_REACH`] it needs [`MANY`] terms.
-pub fn size_of_nome(photon: &Photon<f64>) -> f64 {
+#[inline(always)]
+pub fn size_of_nome<S: Scalar>(photon: &Photon<S>) -> S {
     first_nome((modulus(photon)[1] + 1.0).sqrt()).abs()
 }
 
@@ -247,12 +251,13 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
         [(x - self.phase) * per_rate, azimuth, (self.height.mean * x - self.start[2]) * per_rate]
     }
 
-    /// The first n whose crossing lies ahead.
+    /// The first n whose crossing lies ahead; that of a camera in the plane lies behind.
     #[inline(always)]
     pub fn first(&self) -> S {
         // ⌊X₀/π⌋ + 1: X₀ lies between −π and π.
-        let one = self.phase.constant(1.0);
-        S::select(self.phase.less(self.phase.constant(0.0)), one * 0.0, one)
+        let number = |n: f64| self.phase.constant(n);
+        let upper = S::select(self.phase.less(number(PI - NEAR)), number(1.0), number(2.0));
+        S::select(self.phase.less(number(-NEAR)), number(0.0), upper)
     }
 
     /// θ and azimuth after Mino time τ.

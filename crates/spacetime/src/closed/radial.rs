@@ -2,6 +2,7 @@
 
 use super::photon::{Photon, Potential};
 use super::quadrature::Nodes;
+use super::weierstrass;
 use crate::scalar::Scalar;
 
 /// Which way the radial motion goes. Numbers instead of cases, so that lanes can differ.
@@ -19,61 +20,79 @@ pub struct Course<S> {
     pub end: S,
 }
 
-/// What kind of radial motion it is.
+/// How a radial motion is computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The nearest zeros of U are simple roots outside the horizon or nearly: U is factored.
-    Factored,
-    /// The same, far from the critical curve, where the roots lie far apart.
-    Spread,
-    /// U stays far from zero, or has no such roots.
+    /// U stays far from zero, or has no zeros near the path.
     Plain,
+    /// The nearest zeros of U are a pair outside the horizon, or all but one: U is factored.
+    Factored,
+    /// The same, far from the critical curve, where the zeros lie far apart.
+    Spread,
 }
 
-/// The radial motion of one photon, classified.
+/// The radial motion of photons, classified. Yes is 1, no is 0.
 #[derive(Clone, Copy, Debug)]
-pub struct Class {
+pub struct Class<S> {
     /// Which way it goes.
-    pub course: Course<f64>,
-    /// How to compute it.
-    pub kind: Kind,
+    pub course: Course<S>,
+    /// Whether it is [`Kind::Plain`].
+    pub plain: S,
+    /// Whether it is, if not plain, [`Kind::Spread`].
+    pub spread: S,
     /// Whether it ends at infinity.
-    pub escapes: bool,
+    pub escapes: S,
+    /// How an error grows towards the critical curve: 1/U there, at least 1.
+    pub sensitivity: S,
 }
 
-impl Class {
-    /// Classifies a photon outside a horizon at r₊.
+impl<S: Scalar> Class<S> {
+    /// Classifies a photon outside a horizon at 1/r = `rim`.
     ///
     /// Between its zeros u₁ < u_m < u₂ U is negative: light from far away turns at u₁, light from within at
     /// u₂. If U has no such zeros outside the horizon, light goes on as it began.
-    pub fn of(photon: &Photon<f64>, horizon: f64) -> Self {
+    #[inline(always)]
+    pub fn of(photon: &Photon<S>, rim: S) -> Self {
         let potential = Potential::new(photon);
         let least = potential.least();
         let value = potential.at(least);
-        let rim = 1.0 / horizon;
-        let valley = potential.b < 0.0 && potential.discriminant() >= 0.0;
-        let beyond = least > rim;
-        let monotone = !valley || beyond || value > 0.0;
-        let inwards = photon.u_rate > 0.0;
-        let outer = photon.u < least;
-        let escapes = if monotone { !inwards } else { outer };
-        let sign = |positive: bool| if positive { 1.0 } else { -1.0 };
+        let (zero, one) = (rim.constant(0.0), rim.constant(1.0));
+        let is = |mask: S::Mask| S::select(mask, one, zero);
+        let not = |flag: S| one - flag;
+        let below = |x: S, bound: f64| is(x.less(x.constant(bound)));
+        let above = |x: S, bound: f64| is(x.constant(bound).less(x));
+        let valley = below(potential.b, 0.0) * not(below(potential.discriminant(), 0.0));
+        let beyond = is(rim.less(least)) * valley;
+        let monotone = not(valley).max(beyond).max(above(value, 0.0));
+        let inwards = above(photon.u_rate, 0.0);
+        let outer = is(photon.u.less(least));
+        let escapes = monotone * not(inwards) + not(monotone) * outer;
+        let sign = |flag: S| flag * 2.0 - 1.0;
         let course = Course {
             inwards: sign(inwards),
-            side: sign(!escapes),
+            side: -sign(escapes),
             shape: sign(monotone),
-            lead: sign(monotone || escapes != inwards),
-            end: if escapes { 0.0 } else { rim },
+            lead: S::select(zero.less(monotone), one, -sign(escapes) * sign(inwards)),
+            end: not(escapes) * rim,
         };
-        let plain = !valley || (beyond && value < 0.0) || value > 0.6 || (beyond && value > 0.05);
-        let kind = if plain {
+        let deep = above(value, 0.6).max(beyond * below(value, 0.0)).max(beyond * above(value, 0.05));
+        // Where U has no valley outside the horizon nothing is near the critical curve.
+        let lowest = potential.at(S::select(rim.less(least), rim, least)).abs();
+        let sensitivity = lowest.max(rim.constant(1e-15)).recip() * valley + 1.0;
+        Self { course, plain: not(valley).max(deep), spread: not(above(value, -0.5)), escapes, sensitivity }
+    }
+}
+
+impl Class<f64> {
+    /// How the motion is computed.
+    pub fn kind(&self) -> Kind {
+        if self.plain > 0.0 {
             Kind::Plain
-        } else if value > -0.5 {
-            Kind::Factored
-        } else {
+        } else if self.spread > 0.0 {
             Kind::Spread
-        };
-        Self { course, kind, escapes }
+        } else {
+            Kind::Factored
+        }
     }
 }
 
@@ -206,7 +225,10 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Motion<'a, S, PLAIN, T
         let factors = if PLAIN {
             Factors { c: zero, d: zero, quotient: [zero; 3] }
         } else {
-            Factors::new::<SPREAD>(&potential)
+            photon.u.outline(
+                #[inline(always)]
+                || Factors::new::<SPREAD>(&potential),
+            )
         };
         let mut motion = Self {
             nodes,
@@ -260,7 +282,10 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Motion<'a, S, PLAIN, T
     #[inline(always)]
     pub fn at(&self, u0: S, tau: S) -> Point<S> {
         let zero = tau.constant(0.0);
-        let guess = super::weierstrass::inverse_radius(&self.potential, u0, self.course.inwards, tau);
+        let guess = tau.outline(
+            #[inline(always)]
+            || weierstrass::inverse_radius(&self.potential, u0, self.course.inwards, tau),
+        );
         let late = self.first.tau.less(tau);
         let start = S::select(late, self.middle, self.from);
         let base = |done: S| S::select(late, done, zero);
@@ -336,6 +361,14 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Motion<'a, S, PLAIN, T
     /// Integrals from one parameter to another.
     #[inline(always)]
     fn stretch(&self, from: S, to: S) -> Integrals<S> {
+        from.outline(
+            #[inline(always)]
+            || self.integrate(from, to),
+        )
+    }
+
+    #[inline(always)]
+    fn integrate(&self, from: S, to: S) -> Integrals<S> {
         let half = (to - from) * 0.5;
         let middle = (to + from) * 0.5;
         let mut sum = Integrals::zero(half);

@@ -1,19 +1,28 @@
 //! The tracer by closed forms.
 
-use std::f64::consts::{LN_2, PI};
+use std::f64::consts::PI;
 
+use super::batch::{Batch, Shared};
+use super::kernel::{self, Meeting, Radial, Start, Tables};
 use super::photon::Photon;
-use super::polar::{Cosines, FEW, FEW_REACH, MANY, Oscillation, frequency, size_of_nome};
+use super::polar::{Cosines, FEW, FEW_REACH, MANY, frequency, size_of_nome};
 use super::quadrature::Nodes;
-use super::radial::{Class, Horizons, Kind, Motion, Point};
+use super::radial::{Class, Kind};
 use super::vortical::Vortex;
 use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
 use crate::kerr::horizons;
+use crate::lanes::Level;
 use crate::metric::{Inverted, Kerr, Metric};
 use crate::tensor::dot;
 
 /// Nodes for the motions that are not factored.
 const PLAIN_NODES: usize = 32;
+
+/// η below which light moves in the plane, or along a radius.
+pub(super) const PLANAR: f64 = 1e-28;
+
+/// Error of a ray far from the critical curve, rounding included; found by comparison with 48 nodes.
+pub(super) const TYPICAL_ERROR: f64 = 1e-12;
 
 /// Traces rays around a Kerr hole in closed form.
 ///
@@ -37,12 +46,8 @@ const PLAIN_NODES: usize = 32;
 /// ```
 #[derive(Clone, Debug)]
 pub struct ClosedForm {
-    /// s = −a: rays are followed in the spacetime reversed in time.
-    metric: Kerr,
-    horizon: f64,
-    nodes: Nodes,
-    plain: Nodes,
-    few: Cosines<FEW>,
+    level: Level,
+    shared: Shared,
     many: Box<Cosines<MANY>>,
     fallback: Integrator<Kerr>,
 }
@@ -51,166 +56,131 @@ impl ClosedForm {
     /// A tracer around a hole of spin a, with so many nodes in each quadrature (12 to 48 make sense);
     /// what is left to an integrator has at most `max_steps` steps.
     pub fn new(spin: f64, nodes: usize, max_steps: usize) -> Self {
-        Self {
+        let shared = Shared {
             metric: Kerr::new(-spin),
-            horizon: horizons(spin).0,
+            rim: 1.0 / horizons(spin).0,
             nodes: Nodes::new(nodes),
             plain: Nodes::new(nodes.max(PLAIN_NODES)),
-            few: Cosines::new(),
-            many: Box::new(Cosines::new()),
-            fallback: Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps),
-        }
+            cosines: Cosines::new(),
+        };
+        let fallback = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps);
+        Self { level: Level::best(), shared, many: Box::new(Cosines::new()), fallback }
+    }
+
+    /// The same with these vector instructions instead of the best that the processor has.
+    pub fn with_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// Whether a ray can be traced in closed form.
+    fn suits(ray: &Ray, query: &Query) -> bool {
+        let equatorial = query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt();
+        equatorial && query.points == 0 && ray.side == Side::Reversed && ray.energy > 0.0
     }
 
     fn follow<const PLAIN: bool, const TIMED: bool, const SPREAD: bool>(
         &self,
-        start: &Start<'_>,
+        start: &Start<f64>,
+        escapes: bool,
+        count: usize,
         path: &mut Path,
     ) {
-        let nodes = if PLAIN { &self.plain } else { &self.nodes };
-        let motion = Motion::<f64, PLAIN, TIMED>::new::<SPREAD>(&start.photon, &start.class.course, nodes);
-        let whole = motion.whole();
-        let horizons = Horizons::new(start.photon.spin);
-        let radial = Radial { motion: &motion, horizons, start };
         let photon = &start.photon;
-        let polar = if photon.eta < 0.0 {
-            let vortex = Vortex::new(photon);
-            start.class.escapes.then(|| vortex.at(whole.tau, &self.plain))
-        } else if photon.eta <= 1e-28 {
-            // Within the plane, or motion without angular momentum.
-            Some([photon.mu.acos(), photon.lambda * whole.tau / (1.0 - photon.mu * photon.mu).max(1e-300)])
-        } else if size_of_nome(photon) <= FEW_REACH {
-            radial.oscillate(&Oscillation::new(photon, &self.few), whole.tau, path)
-        } else {
-            radial.oscillate(&Oscillation::new(photon, &self.many), whole.tau, path)
+        let nodes = if PLAIN { &self.shared.plain } else { &self.shared.nodes };
+        let mut meet = |meeting: &Meeting<f64>| {
+            path.crossings.push(Crossing {
+                position: [meeting.position[0], meeting.position[1], 0.0],
+                r: meeting.r,
+                phi: meeting.phi,
+                elapsed: if TIMED { meeting.elapsed } else { f64::NAN },
+            });
         };
-        if start.class.escapes {
+        let direction = if photon.eta <= PLANAR {
+            let radial = Radial::<f64, PLAIN, TIMED>::new::<SPREAD>(start, nodes);
+            let tau = radial.total();
+            let [theta, turned] = if photon.eta < -PLANAR {
+                Vortex::new(photon).at(tau, &self.shared.plain)
+            } else {
+                let sin2 = (1.0 - photon.mu * photon.mu).max(f64::MIN_POSITIVE);
+                [photon.mu.acos(), photon.lambda * tau / sin2]
+            };
+            [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
+        } else if size_of_nome(photon) <= FEW_REACH {
+            let tables = Tables { nodes, cosines: &self.shared.cosines };
+            kernel::follow::<_, FEW, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
+        } else {
+            let tables = Tables { nodes, cosines: &*self.many };
+            kernel::follow::<_, MANY, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
+        };
+        if escapes {
             path.fate = Fate::Escaped;
-            let azimuth = whole.azimuth + radial.variation(0.0, true, Horizons::twist);
-            path.direction = polar.map(|[theta, turned]| [theta, start.azimuth + azimuth + turned]);
+            path.direction = Some(direction);
         } else {
             path.fate = Fate::Captured;
         }
-        if start.query.windings {
-            path.windings = windings(&self.metric, start.ray.energy, &start.ray.start);
-        }
-        path.error_estimate = 1e-12 * self.metric.sensitivity(start.ray.energy, &start.ray.start);
-    }
-}
-
-/// How often light goes round a hole from a place and momentum on to its end, in the spacetime in which it is followed: the
-/// periods of its motion in θ between the camera and its end, ωτ/2π. Without spin it is the angle swept
-/// over 2π. NaN where the motion in θ does not cross the plane (η < 0), and for rays that
-/// [`ClosedForm`] leaves to an integrator.
-pub(crate) fn windings(metric: &Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
-    let Some(photon) = Photon::new(metric.spin(), energy, start) else { return f64::NAN };
-    let class = Class::of(&photon, metric.horizon());
-    let nodes = Nodes::new(PLAIN_NODES);
-    let tau = match class.kind {
-        Kind::Plain => Motion::<f64, true, false>::new::<false>(&photon, &class.course, &nodes).whole().tau,
-        Kind::Factored => {
-            Motion::<f64, false, false>::new::<false>(&photon, &class.course, &nodes).whole().tau
-        }
-        Kind::Spread => Motion::<f64, false, false>::new::<true>(&photon, &class.course, &nodes).whole().tau,
-    };
-    // Light that moves along a radius has no motion in θ.
-    let radial = photon.lambda == 0.0 && photon.eta == 0.0;
-    if radial { 0.0 } else { frequency(&photon) * tau / (2.0 * PI) }
-}
-
-/// A ray whose constants are known.
-struct Start<'a> {
-    ray: &'a Ray,
-    query: &'a Query,
-    metric: Kerr,
-    photon: Photon<f64>,
-    class: Class,
-    /// Boyer–Lindquist azimuth.
-    azimuth: f64,
-}
-
-/// Radial motion with what is known of its start.
-struct Radial<'a, const PLAIN: bool, const TIMED: bool> {
-    motion: &'a Motion<'a, f64, PLAIN, TIMED>,
-    horizons: Horizons<f64>,
-    start: &'a Start<'a>,
-}
-
-impl<const PLAIN: bool, const TIMED: bool> Radial<'_, PLAIN, TIMED> {
-    /// Total variation, with the sign of the first leg, of a function of u from the start to u,
-    /// beyond the turning point if `late` and there is one.
-    fn variation(&self, u: f64, late: bool, f: impl Fn(&Horizons<f64>, f64) -> f64) -> f64 {
-        let Class { course, .. } = self.start.class;
-        let turned = !PLAIN && late && course.shape < 0.0 && course.lead < 0.0;
-        let (first, last) = (f(&self.horizons, self.start.photon.u), f(&self.horizons, u));
-        let change =
-            if turned { first + last - 2.0 * f(&self.horizons, self.motion.turning()) } else { first - last };
-        course.inwards * change
-    }
-
-    /// Crossings, and the direction at the end.
-    fn oscillate<const N: usize>(
-        &self,
-        oscillation: &Oscillation<f64, N>,
-        total: f64,
-        path: &mut Path,
-    ) -> Option<[f64; 2]> {
-        let Start { query, photon, metric, azimuth, .. } = self.start;
-        let mut n = oscillation.first();
-        while path.crossings.len() < query.max_crossings {
-            let [tau, turned, height] = oscillation.crossing(n);
-            n += 1.0;
-            if !(tau < total) {
-                break;
-            }
-            if tau <= 0.0 {
-                continue;
-            }
-            let Point { u, late, azimuth: swept, time } = self.motion.at(photon.u, tau);
-            let r = 1.0 / u;
-            let phi = azimuth + turned + swept + self.variation(u, late, Horizons::twist);
-            let elapsed = if TIMED {
-                let infinite = if photon.u == 0.0 { 2.0 * LN_2 } else { 0.0 };
-                time + height + self.variation(u, late, Horizons::delay) + infinite
-            } else {
-                f64::NAN
-            };
-            let around = phi + metric.azimuth_offset(r);
-            let s = metric.spin();
-            let width = (r * r + s * s).sqrt();
-            path.crossings.push(Crossing {
-                position: [width * around.cos(), width * around.sin(), 0.0],
-                r,
-                phi,
-                elapsed,
-            });
-        }
-        self.start.class.escapes.then(|| oscillation.at(total))
     }
 }
 
 impl Tracer for ClosedForm {
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
-        let equatorial = query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt();
-        let ours = equatorial && query.points == 0 && ray.side == Side::Reversed;
-        let photon = Photon::new(self.metric.spin(), ray.energy, &ray.start).filter(|_| ours);
-        let Some(photon) = photon else {
+        if !Self::suits(ray, query) {
             self.fallback.trace(ray, query, path);
             return;
-        };
+        }
         path.clear();
-        let class = Class::of(&photon, self.horizon);
-        let r = 1.0 / photon.u;
-        let offset = if photon.u > 0.0 { self.metric.azimuth_offset(r) } else { 0.0 };
-        let azimuth = ray.azimuth - offset;
-        let start = Start { ray, query, metric: self.metric, photon, class, azimuth };
-        match (class.kind, query.elapsed) {
-            (Kind::Plain, false) => self.follow::<true, false, false>(&start, path),
-            (Kind::Plain, true) => self.follow::<true, true, false>(&start, path),
-            (Kind::Factored, false) => self.follow::<false, false, false>(&start, path),
-            (Kind::Factored, true) => self.follow::<false, true, false>(&start, path),
-            (Kind::Spread, false) => self.follow::<false, false, true>(&start, path),
-            (Kind::Spread, true) => self.follow::<false, true, true>(&start, path),
+        let metric = self.shared.metric;
+        let photon = Photon::new(metric.spin(), ray.energy, &ray.start);
+        let class = Class::of(&photon, self.shared.rim);
+        let offset = if photon.u > 0.0 { metric.azimuth_offset(1.0 / photon.u) } else { 0.0 };
+        let start = Start { photon, course: class.course, azimuth: ray.azimuth - offset };
+        let (escapes, count) = (class.escapes > 0.0, query.max_crossings);
+        match (class.kind(), query.elapsed) {
+            (Kind::Plain, false) => self.follow::<true, false, false>(&start, escapes, count, path),
+            (Kind::Plain, true) => self.follow::<true, true, false>(&start, escapes, count, path),
+            (Kind::Factored, false) => self.follow::<false, false, false>(&start, escapes, count, path),
+            (Kind::Factored, true) => self.follow::<false, true, false>(&start, escapes, count, path),
+            (Kind::Spread, false) => self.follow::<false, false, true>(&start, escapes, count, path),
+            (Kind::Spread, true) => self.follow::<false, true, true>(&start, escapes, count, path),
+        }
+        if query.windings {
+            path.windings = windings(&metric, ray.energy, &ray.start);
+        }
+        path.error_estimate = TYPICAL_ERROR * class.sensitivity;
+    }
+
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        let suits = rays.iter().all(|ray| Self::suits(ray, query));
+        if !suits || query.windings {
+            for (ray, path) in rays.iter().zip(paths) {
+                self.trace(ray, query, path);
+            }
+            return;
+        }
+        let mut rest = Vec::new();
+        self.level.run(Batch { shared: &self.shared, rays, query, paths, rest: &mut rest });
+        for ray in rest {
+            self.trace(&rays[ray], query, &mut paths[ray]);
         }
     }
+}
+
+/// How often light goes round a hole from a place and momentum on to its end, in the spacetime in which it
+/// is followed: the periods of its motion in θ, ωτ/2π. Without spin it is the angle swept over 2π. NaN
+/// where the motion in θ does not cross the plane (η < 0), and where the energy is not positive.
+pub(crate) fn windings(metric: &Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
+    if !(energy > 0.0) {
+        return f64::NAN;
+    }
+    let photon = Photon::new(metric.spin(), energy, start);
+    let class = Class::of(&photon, 1.0 / metric.horizon());
+    let start = Start { photon, course: class.course, azimuth: 0.0 };
+    let nodes = Nodes::new(PLAIN_NODES);
+    let tau = match class.kind() {
+        Kind::Plain => Radial::<f64, true, false>::new::<false>(&start, &nodes).total(),
+        Kind::Factored => Radial::<f64, false, false>::new::<false>(&start, &nodes).total(),
+        Kind::Spread => Radial::<f64, false, false>::new::<true>(&start, &nodes).total(),
+    };
+    // Light that moves along a radius has no motion in θ.
+    let radial = photon.lambda == 0.0 && photon.eta == 0.0;
+    if radial { 0.0 } else { frequency(&photon) * tau / (2.0 * PI) }
 }

@@ -113,4 +113,12 @@ impl Path {
 pub trait Tracer: Send + Sync {
     /// Follows `ray` into the past and replaces `path` with what it met.
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path);
+
+    /// Follows many rays and replaces as many paths: faster where vector instructions help. A ray's path
+    /// does not depend on the rays beside it.
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        for (ray, path) in rays.iter().zip(paths) {
+            self.trace(ray, query, path);
+        }
+    }
 }

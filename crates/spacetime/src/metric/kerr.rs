@@ -27,16 +27,18 @@ impl Kerr {
     pub const fn spin(&self) -> f64 {
         self.spin
     }
+}
 
-    /// w r, which is 1 at infinity.
-    pub(crate) fn scaled_radius(&self, state: &Inverted<f64>) -> f64 {
-        Field::at(&state.n, state.w * self.spin).r
-    }
+/// w r around a hole of spin s, which is 1 at infinity.
+#[inline(always)]
+pub(crate) fn scaled_radius<S: Scalar>(spin: S, state: &Inverted<S>) -> S {
+    Field::at(&state.n, state.w * spin).r
+}
 
-    /// The spatial part of l.
-    pub(crate) fn principal_null(&self, state: &Inverted<f64>) -> Vec3<f64> {
-        Field::at(&state.n, state.w * self.spin).l
-    }
+/// The spatial part of l around a hole of spin s.
+#[inline(always)]
+pub(crate) fn principal_null<S: Scalar>(spin: S, state: &Inverted<S>) -> Vec3<S> {
+    Field::at(&state.n, state.w * spin).l
 }
 
 /// The quantities of the metric at a point.

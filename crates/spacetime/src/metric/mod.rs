@@ -8,6 +8,7 @@ mod minkowski;
 mod schwarzschild;
 
 pub use kerr::Kerr;
+pub(crate) use kerr::{principal_null, scaled_radius};
 pub use minkowski::Minkowski;
 pub use schwarzschild::Schwarzschild;
 
