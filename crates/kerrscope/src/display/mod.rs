@@ -6,9 +6,11 @@
 //!
 //! The order is: exposure, tone curve, transfer function.
 
+mod colormap;
 pub mod srgb;
 mod tone;
 
+pub use colormap::{Colormap, NO_VALUE};
 pub use tone::Tone;
 
 use crate::light::Light;
