@@ -6,6 +6,7 @@
 //!
 //! The order is: exposure, tone curve, transfer function.
 
+pub mod chart;
 mod colormap;
 pub mod srgb;
 mod tone;
