@@ -284,6 +284,18 @@ mod tests {
     }
 
     #[test]
+    fn one_label_is_not_enough_where_two_are_allowed() {
+        let legend = Legend::new(64);
+        let scale = &Scale::Linear;
+        let bar = Bar { scale, range: [0.9, 1.1], outer: [4, 60], tips: [0, 0], middle: 0.0, half: 0.0 };
+        // With at most two, only 1.0 is a multiple of a round number.
+        assert_eq!(scale.ticks(bar.range, 2).len(), 1);
+        assert_eq!(legend.labels(&bar, 2, 0.0), None);
+        assert_eq!(legend.labels(&bar, 1, 0.0).map_or(0, |labels| labels.len()), 1);
+        assert_eq!(legend.labels(&bar, 3, 0.0).map_or(0, |labels| labels.len()), 3);
+    }
+
+    #[test]
     fn words_stand_in_lines() {
         let legend = Legend::new(960);
         assert_eq!((legend.em, legend.margin, legend.right()), (16.0, 12, 948));
