@@ -170,6 +170,7 @@ fn every_key() {
     let s = read("render.method = \"rk4\"");
     assert_eq!((s.render.step, s.file().render.step), (0.1, Some(0.1)));
     assert_eq!(read("render.method = \"tsit5\"").render.method, Method::Tsit5);
+    assert_eq!(read("camera.display.tone = \"filmic\"").display.tone, Tone::Filmic);
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn renders() -> impl Strategy<Value = Render> {
 }
 
 fn cameras() -> impl Strategy<Value = Camera> {
-    let tones = sample::select(vec![Tone::Neutral, Tone::None]);
+    let tones = sample::select(vec![Tone::Neutral, Tone::Filmic, Tone::None]);
     (number(-30.0, 30.0), tones, sample::select(vec![8, 16]))
         .prop_map(|(exposure, tone, bits)| Camera { display: Display { exposure, tone, bits } })
 }

@@ -2,6 +2,7 @@
 
 mod coordinates;
 mod disk;
+mod display;
 mod observer;
 mod screen;
 
@@ -13,9 +14,9 @@ use kerrscope_spacetime::observer::Place;
 use super::fault::{Collector, one_line};
 use super::file::{self, SceneFile, SpacetimeName};
 use super::tree::Node;
-use super::valid::{Display, Method, Render, Sky, SkyPicture, Spacetime};
+use super::valid::{Method, Render, Sky, SkyPicture, Spacetime};
 use super::{Scene, shape};
-use crate::display::{self, Depth};
+use crate::render::Layer;
 use crate::sky::{Frame, Orientation};
 
 /// The largest number of rays in a picture: width × height × samples.
@@ -43,15 +44,10 @@ pub(super) fn build(
         screen: builder.screen(&file.screen, spacetime, observer),
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
-        render: builder.render(&file.render, observer.place),
-        display: display(&file.camera.display),
+        render: builder.render(&file.render, file.camera.display.layer, observer.place),
+        display: builder.display(&file.camera.display),
         file,
     }
-}
-
-fn display(file: &file::Display) -> Display {
-    let view = display::Display { exposure: file.exposure, tone: file.tone };
-    Display { view, depth: if file.bits == 16 { Depth::Sixteen } else { Depth::Eight } }
 }
 
 struct Builder<'a> {
@@ -149,7 +145,8 @@ impl Builder<'_> {
         Sky { picture, brightness: file.brightness }
     }
 
-    fn render(&mut self, file: &file::Render, place: Place) -> Render {
+    fn render(&mut self, file: &file::Render, shown: Option<Layer>, place: Place) -> Render {
+        let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
         if rays > MAX_RAYS {
             let pixels = u64::from(file.width) * u64::from(file.height);
@@ -190,7 +187,7 @@ impl Builder<'_> {
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
-            layers: file.layers.iter().copied().collect::<BTreeSet<_>>().into_iter().collect(),
+            layers: layers.into_iter().collect(),
         }
     }
 
