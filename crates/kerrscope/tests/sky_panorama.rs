@@ -117,24 +117,3 @@ fn one_bright_pixel_is_at_the_traced_direction_in_six_orientations() {
         assert!(seen > 0, "{sky}");
     }
 }
-
-#[test]
-fn coarse_pixels_see_the_mean() {
-    // A checkerboard of single pixels: grey as soon as two of them are not larger than one pixel.
-    let image = image::GrayImage::from_fn(WIDTH, HEIGHT, |x, y| image::Luma([((x + y) % 2 * 255) as u8]));
-    let mut file = Vec::new();
-    image.write_to(&mut std::io::Cursor::new(&mut file), image::ImageFormat::Png).unwrap();
-    let texel = TAU / f64::from(WIDTH);
-    for (pixel, size) in [(0.0, 360), (1.9, 360), (2.0, 180), (3.9, 180), (4.1, 90), (1e9, 1)] {
-        let texture = Texture::decode(&file).unwrap();
-        let sky = Panorama::new(texture, pixel * texel, Orientation::upright(0.0), 1.0);
-        assert_eq!(sky.texture().width(), size, "{pixel}");
-        let centre = |x: f64| PI - (x + 0.5) * TAU / f64::from(size);
-        let light = [0.0, 1.0].map(|x| sky.radiance(FRAC_PI_2 + 0.5 * texel, centre(x)).rgb[0]);
-        if size == 360 {
-            assert!((light[0] - light[1]).abs() > 0.99, "{pixel} {light:?}");
-        } else {
-            assert!(light.iter().all(|&l| (l - 0.5).abs() < 1e-3), "{pixel} {light:?}");
-        }
-    }
-}
