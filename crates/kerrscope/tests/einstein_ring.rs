@@ -13,10 +13,9 @@ mod orbit;
 
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 use image::{Rgb, RgbImage};
-use kerrscope::render::{Film, Replay, Stage, Tally, draw};
+use kerrscope::render::{Film, Replay, Stage, Tally, Watch, draw};
 use kerrscope::scene::file::{Sky, SkyKind};
 use kerrscope::scene::{Scene, SceneFile};
 use orbit::Orbit;
@@ -169,10 +168,10 @@ fn place([right, up]: [i32; 2]) -> [f64; 2] {
 fn image(film: &Film, color: usize, from: f64, to: f64) -> [f64; 2] {
     let [width, height] = [film.width, film.height].map(f64::from);
     let (mut sum, mut moment, mut towards) = (0.0, 0.0, [0.0; 2]);
-    for (k, light) in film.pixels.iter().enumerate() {
+    for (k, light) in film.light.iter().enumerate() {
         let [x, y] = [k as u32 % film.width, k as u32 / film.width].map(|at| f64::from(at) + 0.5);
         let (x, y) = (x - 0.5 * width, 0.5 * height - y);
-        let (rho, light) = (x.hypot(y), light.rgb[color]);
+        let (rho, light) = (x.hypot(y), f64::from(light[color]));
         if light > 0.0 && (from..to).contains(&rho) {
             sum += light;
             moment += light * rho;
@@ -200,7 +199,7 @@ fn what_is_behind_the_hole_is_seen_again_within_the_ring_inverted() {
         sky.put_pixel((360 + right) as u32, (180 - up) as u32, Rgb(light));
     }
     let set = ["render.width=320", "render.height=180", "render.samples=9"];
-    let film = draw(&stage(Some(&sky), &set), &AtomicBool::new(false), &|_| {}).unwrap();
+    let film = draw(&stage(Some(&sky), &set), &Watch::default()).unwrap();
     let [critical, ring] = [CRITICAL, impact(PI)].map(|b| radius(b, 180));
 
     let sources = SPOTS.map(place);

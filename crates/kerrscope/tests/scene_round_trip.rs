@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use kerrscope::disk::Mapping;
-use kerrscope::display::Tone;
+use kerrscope::display::{Colormap, Tone};
+use kerrscope::render::Layer;
 use kerrscope::scene::file::{
     Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Observer, RelativeTo,
     Render, Screen, ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
@@ -133,8 +134,9 @@ fn renders() -> impl Strategy<Value = Render> {
         number(1e-14, 1e-2),
         option::of(number(1e-9, 1e3)),
         (1..=1_000_000_u32, 1..=64_u32),
+        sample::subsequence(Layer::ALL.to_vec(), 0..=Layer::ALL.len()),
     )
-        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most)| Render {
+        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most, layers)| Render {
             width: size.0,
             height: size.1,
             samples: size.2,
@@ -146,13 +148,24 @@ fn renders() -> impl Strategy<Value = Render> {
             step: step.filter(|_| method == Method::Rk4),
             max_steps: most.0,
             max_crossings: most.1,
+            layers,
         })
 }
 
 fn cameras() -> impl Strategy<Value = Camera> {
     let tones = sample::select(vec![Tone::Neutral, Tone::Filmic, Tone::None]);
-    (number(-30.0, 30.0), tones, sample::select(vec![8, 16]))
-        .prop_map(|(exposure, tone, bits)| Camera { display: Display { exposure, tone, bits } })
+    let maps = sample::select(vec![Colormap::Viridis, Colormap::Hue]);
+    let shown = (sample::select(Layer::ALL.to_vec()), option::of(0..=2_u8), option::of(maps), any::<bool>());
+    (number(-30.0, 30.0), tones, sample::select(vec![8, 16]), option::of(shown)).prop_map(
+        |(exposure, tone, bits, shown)| {
+            let plain = Display { exposure, tone, bits, ..Display::default() };
+            let display = shown.map_or(plain.clone(), |(layer, order, colormap, legend)| {
+                let order = order.filter(|_| layer.has_orders());
+                Display { layer: Some(layer), order, colormap, legend: Some(legend), ..plain }
+            });
+            Camera { display }
+        },
+    )
 }
 
 fn scene_files() -> impl Strategy<Value = SceneFile> {

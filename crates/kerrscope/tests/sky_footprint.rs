@@ -2,10 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 use image::{GrayImage, Luma};
-use kerrscope::render::{Replay, Sampler, Stage, Tally, draw, tracer};
+use kerrscope::render::{Replay, Sampler, Stage, Tally, Watch, draw, tracer};
 use kerrscope::scene::Scene;
 use kerrscope::sky::{Orientation, Panorama, footprint};
 use kerrscope::spacetime::geodesic::{Path as Trajectory, Query};
@@ -157,13 +156,15 @@ fn pixels_are_the_same_in_any_order_and_for_any_number_of_threads() {
     (scene.render.width, scene.render.height) = (64, 36);
     let stage = Stage::new(&scene).unwrap();
     let (mut replay, mut tally) = (Replay::default(), Tally::default());
-    let mut backwards: Vec<_> =
-        (0..64 * 36).rev().map(|k| stage.pixel([k % 64, k / 64], &mut replay, &mut tally)).collect();
+    let mut backwards: Vec<_> = (0..64 * 36)
+        .rev()
+        .map(|k| stage.pixel([k % 64, k / 64], &mut replay, &mut tally).rgb.map(|c| c as f32))
+        .collect();
     backwards.reverse();
     for threads in [1, 3] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        let film = pool.install(|| draw(&stage, &AtomicBool::new(false), &|_| {})).unwrap();
-        assert_eq!(film.pixels, backwards);
+        let film = pool.install(|| draw(&stage, &Watch::default())).unwrap();
+        assert_eq!(film.light, backwards);
     }
 }
 
@@ -177,8 +178,8 @@ fn pixels_wide_enough_see_the_mean_of_the_picture() {
         scene.spacetime = kerrscope::scene::Spacetime::Minkowski;
         (scene.render.width, scene.render.height, scene.render.jitter) = (height, height, false);
         let stage = Stage::new(&scene).unwrap();
-        let film = draw(&stage, &AtomicBool::new(false), &|_| {}).unwrap();
-        let away = film.pixels.iter().map(|light| (light.rgb[0] - 0.5).abs()).fold(0.0, f64::max);
+        let film = draw(&stage, &Watch::default()).unwrap();
+        let away = film.light.iter().map(|light| (light[0] - 0.5).abs()).fold(0.0, f32::max);
         // A pixel of the screen is 4.5° or 0.33° wide.
         assert_eq!(away < 1e-3, grey, "{height} {samples} {away}");
     }
