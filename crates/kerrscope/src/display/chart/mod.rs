@@ -1,11 +1,12 @@
 //! Charts: a plane of numbers as a picture, with a legend.
 //!
-//! A [`Chart`] says what the numbers are; [`Chart::draw`] lays them along a [`Colormap`] by their [`Scale`]. A
-//! legend is a strip below the picture, of the same width, so that the picture's own pixels stay where they
-//! are: the title, a bar of the colours with its [ticks](Scale::ticks), or a box for each category. A bar's
-//! end is pointed where values lie beyond it; these have the colour of the end. "No value" is
-//! dark grey, [`NO_VALUE`], and has a box of its own where it occurs. Words that are longer than a line are cut
-//! short, and what does not fit is left out: below some forty pixels the words, below ten the whole legend.
+//! A [`Chart`] says what the numbers are; [`Chart::draw`] lays them along a [`Colormap`] by their
+//! [`Scale`]. A legend is a strip below the picture, of the same width, so that the picture's own pixels
+//! stay where they are: the title, a bar of the colours with its [ticks](Scale::ticks), or a box for each
+//! category. A bar's end is pointed where values lie beyond it; these have the colour of the end. "No
+//! value" is dark grey, [`NO_VALUE`], and has a box of its own where it occurs. Words that are longer than
+//! a line are cut short, and what does not fit is left out: below some forty pixels the words, below ten
+//! the whole legend.
 //!
 //! ```
 //! use kerrscope::display::chart::{Chart, Scale};
@@ -22,7 +23,8 @@
 //! use kerrscope::output::{Provenance, png::Png};
 //! # let folder = tempfile::tempdir()?;
 //! # let path = folder.path().join("redshift.png");
-//! # let made = Provenance { version: "0.1.0".into(), seed: 1, instruction_level: "baseline".into(), scene_toml: String::new() };
+//! # let [version, instruction_level, scene_toml] = ["0.1.0", "baseline", ""].map(String::from);
+//! # let made = Provenance { version, seed: 1, instruction_level, scene_toml };
 //! let png = Png { display: picture.display(), ..Png::default() };
 //! png.write(&path, picture.width, picture.height, &picture.light(), &made)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -48,15 +50,15 @@ use rayon::prelude::*;
 /// What a plane of numbers is, and how it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What the numbers are, such as "redshift factor g". Lines of a legend break at spaces, but not at those that
-    /// Unicode calls no-break.
+    /// What the numbers are, such as "redshift factor g". Lines of a legend break at spaces, but not at
+    /// those that Unicode calls no-break.
     pub title: String,
     /// Their unit, such as "M" or "rad"; empty for none. It stands in brackets behind the title.
     pub unit: String,
     /// What kind of numbers they are.
     pub scale: Scale,
-    /// The values at the ends of the colour map; none for those of [`Scale::value_range`]. That of a cyclic scale is
-    /// one period long.
+    /// The values at the ends of the colour map; none for those of [`Scale::value_range`]. That of a cyclic
+    /// scale is one period long.
     pub range: Option<[f64; 2]>,
     /// The colours.
     pub colormap: Colormap,
@@ -104,7 +106,8 @@ impl Chart {
     /// ```
     ///
     /// # Errors
-    /// When there are not `width` × `height` values, or none, and when the range or the period cannot be shown.
+    /// When there are not `width` × `height` values, or none, and when the range or the period cannot be
+    /// shown.
     pub fn draw(&self, values: &[f32], width: u32, height: u32) -> Result<Picture, ChartError> {
         self.check(values.len(), width, height).map_err(|fault| ChartError { fault })?;
         let range = self.range.or_else(|| self.scale.value_range(values));
