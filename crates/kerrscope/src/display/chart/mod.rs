@@ -13,8 +13,8 @@
 //! use kerrscope::display::{Colormap, NO_VALUE};
 //!
 //! // How far light from each pixel of a row is shifted; the last one sees the hole.
-//! let values = [0.2, 0.5, 0.8, 1.1, 1.4, f32::NAN];
-//! let chart = Chart { range: Some([0.2, 1.4]), ..Chart::new("redshift factor g", "", Scale::Linear) };
+//! let values = [0.25, 0.5, 0.75, 1.0, 1.25, f32::NAN];
+//! let chart = Chart { range: Some([0.25, 1.25]), ..Chart::new("redshift factor g", "", Scale::Linear) };
 //! let picture = chart.draw(&values, 6, 1)?;
 //! assert_eq!(picture.pixels[0], Colormap::Viridis.color(0.0).map(|c| c as f32));
 //! assert_eq!(picture.pixels[5], NO_VALUE.map(|c| c as f32));
