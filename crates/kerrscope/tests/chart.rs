@@ -1,9 +1,8 @@
 //! Charts: the picture's pixels and the legend below them.
 
-use kerrscope::display::chart::{Chart, ChartFault, Picture, Scale};
-use kerrscope::display::{Colormap, NO_VALUE};
-use kerrscope::output::Provenance;
-use kerrscope::output::png::{Depth, Png};
+use kerrscope::display::chart::{Chart, ChartFault, Scale};
+use kerrscope::display::{Colormap, Depth, NO_VALUE, Picture};
+use kerrscope::output::{Provenance, png};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -253,8 +252,7 @@ fn a_saved_chart_has_the_colours_of_the_map() {
         scene_toml: String::new(),
     };
     let mut file = Vec::new();
-    let png = Png { display: picture.display(), depth: Depth::Eight };
-    png.encode(&mut file, picture.width, picture.height, &picture.light(), &made).unwrap();
+    png::encode(&mut file, &picture, Depth::Eight, &made).unwrap();
     let read = image::load_from_memory(&file).unwrap().to_rgb8();
     assert_eq!(read.height(), picture.height);
     for (k, (saved, drawn)) in read.pixels().zip(&picture.pixels).enumerate() {

@@ -121,10 +121,20 @@ fn every_key() {
         assert_eq!(disk.color, [1.0; 3]);
     }
 
-    let s = read("sky = { kind = \"black\", brightness = 0 }");
-    assert_eq!(s.sky, scene::Sky { picture: scene::SkyPicture::Black, brightness: 0.0 });
-    let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
-    assert_eq!(s.sky.picture, scene::SkyPicture::Uniform { color: [1.0; 3] });
+    let s = read("sky = { kind = \"black\" }");
+    assert_eq!(s.sky.picture, scene::SkyPicture::Black);
+    let s = read("sky = { kind = \"uniform\", color = [1, 1, 1], brightness = 0 }");
+    assert_eq!(
+        s.sky,
+        scene::Sky { picture: scene::SkyPicture::Uniform { color: [1.0; 3] }, brightness: 0.0 }
+    );
+    for (kind, picture) in [
+        ("uniform", scene::SkyPicture::Uniform { color: [0.2, 0.34, 0.55] }),
+        ("grid", scene::SkyPicture::Grid { color: [0.2, 0.34, 0.55], spacing: PI / 12.0 }),
+    ] {
+        let s = read(&format!("sky.kind = \"{kind}\""));
+        assert_eq!(s.sky, scene::Sky { picture, brightness: 1.0 });
+    }
     for spacing in ["1", "1.2", "11.25", "22.5", "90"] {
         let s = read(&format!("[sky]\nkind = \"grid\"\nspacing = {spacing}"));
         assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));

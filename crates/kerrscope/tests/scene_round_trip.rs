@@ -96,17 +96,31 @@ fn disks() -> impl Strategy<Value = Disk> {
 }
 
 fn skies() -> impl Strategy<Value = Sky> {
-    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
     let frames = sample::select(vec![Frame::Galactic, Frame::Equatorial]);
-    let drawn = vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial];
-    let stands = (frames, sample::select(drawn), number(-1e6, 1e6), vector(-1e6, 1e6));
-    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=90_u32, stands).prop_map(
-        |(kind, color, brightness, lines, (frame, image_frame, longitude, rotation))| {
-            let image = (kind == SkyKind::Panorama).then(|| "src/../Cargo.toml".to_owned());
-            let spacing = 90.0 / f64::from(lines);
-            Sky { kind, color, brightness, spacing, image, frame, image_frame, longitude, rotation }
-        },
-    )
+    let drawn = sample::select(vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial]);
+    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
+    let all = (
+        sample::select(kinds),
+        option::of(vector(0.0, 1.0)),
+        option::of(number(0.0, 1e12)),
+        option::of((1..=90_u32).prop_map(|lines| 90.0 / f64::from(lines))),
+        (option::of(frames), option::of(drawn), option::of(number(-1e6, 1e6)), option::of(vector(-1e6, 1e6))),
+    );
+    all.prop_map(|(kind, color, brightness, spacing, (frame, image_frame, longitude, rotation))| {
+        let plain = Sky { kind, brightness, ..Sky::default() };
+        let turned = Sky { longitude, rotation, ..plain.clone() };
+        match kind {
+            SkyKind::Black => plain,
+            SkyKind::Uniform => Sky { color, ..plain },
+            SkyKind::Grid => Sky { color, spacing, ..plain },
+            SkyKind::Stars => Sky { frame, ..turned },
+            SkyKind::Panorama => {
+                let scene = image_frame.is_none_or(|drawn| drawn == ImageFrame::Scene);
+                let frame = frame.filter(|_| !scene);
+                Sky { image: Some("src/../Cargo.toml".to_owned()), frame, image_frame, ..turned }
+            }
+        }
+    })
 }
 
 fn renders() -> impl Strategy<Value = Render> {

@@ -8,13 +8,20 @@
 
 pub mod chart;
 mod colormap;
+mod false_color;
+mod picture;
 pub mod srgb;
 mod tone;
 
 pub use colormap::{Colormap, NO_VALUE};
+pub use false_color::FalseColor;
+pub use picture::{Depth, Picture};
 pub use tone::Tone;
 
+use rayon::prelude::*;
+
 use crate::light::Light;
+use crate::render::Film;
 
 /// Light brighter than this is shown as this: it is white on any screen, and sums
 /// and ratios of such values stay finite.
@@ -52,5 +59,12 @@ impl Display {
         // What is not a number is not above 0 either.
         let exposed = exposed.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
         self.tone.apply(exposed).map(|c| srgb::encode(c.clamp(0.0, 1.0)))
+    }
+
+    /// The light of a film as a screen shows it.
+    pub fn develop(&self, film: &Film) -> Picture {
+        let encode = |light: &[f32; 3]| self.encode(Light::new(light.map(f64::from))).map(|c| c as f32);
+        let pixels = film.light.par_iter().map(encode).collect();
+        Picture { width: film.width, height: film.height, pixels }
     }
 }

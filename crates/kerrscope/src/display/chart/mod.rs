@@ -18,15 +18,6 @@
 //! let picture = chart.draw(&values, 6, 1)?;
 //! assert_eq!(picture.pixels[0], Colormap::Viridis.color(0.0).map(|c| c as f32));
 //! assert_eq!(picture.pixels[5], NO_VALUE.map(|c| c as f32));
-//!
-//! // It can be saved as any other picture.
-//! use kerrscope::output::{Provenance, png::Png};
-//! # let folder = tempfile::tempdir()?;
-//! # let path = folder.path().join("redshift.png");
-//! # let [version, instruction_level, scene_toml] = ["0.1.0", "baseline", ""].map(String::from);
-//! # let made = Provenance { version, seed: 1, instruction_level, scene_toml };
-//! let png = Png { display: picture.display(), ..Png::default() };
-//! png.write(&path, picture.width, picture.height, &picture.light(), &made)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -43,8 +34,7 @@ pub use error::{ChartError, ChartFault};
 pub use scale::Scale;
 pub use ticks::Tick;
 
-use super::{Colormap, Display, NO_VALUE, Tone, srgb};
-use crate::light::Light;
+use super::{Colormap, NO_VALUE, Picture};
 use rayon::prelude::*;
 
 /// What a plane of numbers is, and how it is shown.
@@ -64,17 +54,6 @@ pub struct Chart {
     pub colormap: Colormap,
     /// Whether there is a legend below the picture.
     pub legend: bool,
-}
-
-/// A picture in the encoding of sRGB.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
-    /// Width in pixels.
-    pub width: u32,
-    /// Height in pixels, the legend's included.
-    pub height: u32,
-    /// Red, green and blue from 0 to 1, along the rows, the top row first.
-    pub pixels: Vec<[f32; 3]>,
 }
 
 /// What a legend has to tell of, besides the range.
@@ -155,18 +134,5 @@ impl Chart {
             no_value: a.no_value || b.no_value,
             beyond: [a.beyond[0] || b.beyond[0], a.beyond[1] || b.beyond[1]],
         })
-    }
-}
-
-impl Picture {
-    /// The linear light of the pixels, which [`display`](Self::display) shows as they are.
-    pub fn light(&self) -> Vec<Light> {
-        let light = |pixel: &[f32; 3]| Light::new(pixel.map(|c| srgb::decode(f64::from(c))));
-        self.pixels.par_iter().map(light).collect()
-    }
-
-    /// A display that changes nothing: no exposure, no curve.
-    pub const fn display(&self) -> Display {
-        Display { exposure: 0.0, tone: Tone::None }
     }
 }

@@ -120,7 +120,10 @@ impl Scale {
     }
 
     /// Whether values of 32 bits can be told apart in a range.
-    pub(super) fn check_range(&self, range: [f64; 2]) -> Result<(), ChartFault> {
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn check_range(&self, range: [f64; 2]) -> Result<(), ChartFault> {
         let [low, high] = range;
         // Numbers of 32 bits go from 1.4e-45 to 3.4e38; so do automatic ranges, and a little further.
         if !(amount(range) < 1e40 && high - low > 1e-47 && high - low >= 1e-6 * amount(range)) {
