@@ -281,8 +281,8 @@ fn faults_say_what_to_do() {
     }
     assert_eq!(
         fault(chart(Scale::Logarithmic, Some([0.0, 1.0])), 1, 1, 1).to_string(),
-        "cannot draw a chart: the logarithmic range from 0 to 1 does not lie above 0; give a lower end above 0, \
-         or use a linear scale"
+        "cannot draw a chart: the logarithmic range from 0 to 1 does not lie above 0; give a lower end \
+         above 0, or use a linear scale"
     );
     let cyclic = |period, range| fault(chart(Scale::Cyclic { period }, range), 1, 1, 1).fault;
     assert_eq!(cyclic(-1.0, None), ChartFault::Period { period: -1.0 });

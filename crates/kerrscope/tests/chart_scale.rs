@@ -214,7 +214,8 @@ proptest! {
         prop_assert!((2..=most).contains(&ticks.len()), "{:?}", ticks);
         let step = (ticks.last().unwrap().value - ticks[0].value) / (ticks.len() - 1) as f64;
         let digit = step / 10_f64.powf(step.log10().floor());
-        prop_assert!([1.0, 2.0, 5.0, 10.0].iter().any(|round| (digit / round - 1.0).abs() < 1e-8), "{}", step);
+        let round = [1.0, 2.0, 5.0, 10.0].iter().any(|round| (digit / round - 1.0).abs() < 1e-8);
+        prop_assert!(round, "{}", step);
         for (k, Tick { value, label }) in ticks.iter().enumerate() {
             prop_assert!((low - 1e-6 * step..=high + 1e-6 * step).contains(value));
             prop_assert!((value - ticks[0].value - k as f64 * step).abs() < 1e-8 * step);
@@ -223,7 +224,9 @@ proptest! {
     }
 
     #[test]
-    fn logarithmic_ticks_are_round_and_inside(low in -40.0_f64..30.0, decades in 0.05_f64..60.0, most in 3_usize..15) {
+    fn logarithmic_ticks_are_round_and_inside(
+        low in -40.0_f64..30.0, decades in 0.05_f64..60.0, most in 3_usize..15
+    ) {
         let range = [10_f64.powf(low), 10_f64.powf((low + decades).min(38.0))];
         let ticks = Scale::Logarithmic.ticks(range, most);
         prop_assert!((1..=most).contains(&ticks.len()));

@@ -85,8 +85,8 @@ fn grey(t: f64) -> [f64; 3] {
     [srgb::encode(((lightness + 16.0) / 116.0).powi(3)); 3]
 }
 
-// Oklab (Ottosson 2020, https://bottosson.github.io/posts/oklab) in polar coordinates. At L = 0.75 a circle of
-// the hues lies inside sRGB up to C = 0.1275, which is the largest of all L.
+// Oklab (Ottosson 2020, https://bottosson.github.io/posts/oklab) in polar coordinates. At L = 0.75 a circle
+// of the hues lies inside sRGB up to C = 0.1275, which is the largest of all L.
 fn hue(t: f64) -> [f64; 3] {
     const LIGHTNESS: f64 = 0.75;
     const CHROMA: f64 = 0.127;

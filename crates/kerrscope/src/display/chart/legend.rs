@@ -114,8 +114,8 @@ impl Legend {
         shorter.rfind(|words| text::width(words, self.em) <= room)
     }
 
-    /// Where things of given widths, none longer than a line, stand if they follow one another in lines: the line
-    /// and the left end of each.
+    /// Where things of given widths, none longer than a line, stand if they follow one another in lines:
+    /// the line and the left end of each.
     fn flow(&self, widths: impl Iterator<Item = i32>, gap: i32) -> Vec<(i32, i32)> {
         let (mut line, mut left) = (0, self.margin);
         let place = |width: i32| {
@@ -231,8 +231,8 @@ impl Legend {
         self.canvas.fill([x - edge / 2, top, edge, self.ems(ems)], FRAME);
     }
 
-    /// Up to `most` ticks, and two if that allows for it, with the left ends of their labels; none if these come
-    /// nearer to each other than `gap` ems.
+    /// Up to `most` ticks, and two if that allows for it, with the left ends of their labels; none if these
+    /// come nearer to each other than `gap` ems.
     fn labels(&self, bar: &Bar, most: usize, gap: f32) -> Option<Vec<(Tick, i32)>> {
         // Labels may reach halfway into the margins.
         let [mut free, end] = [self.margin / 2, self.canvas.width - self.margin / 2];

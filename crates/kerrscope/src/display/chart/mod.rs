@@ -1,23 +1,23 @@
 //! Charts: a plane of numbers as a picture, with a legend.
 //!
-//! A [`Chart`] says what the numbers are; [`Chart::draw`] lays them along a [`Colormap`] by their [`Scale`]. A
-//! legend is a strip below the picture, of the same width, so that the picture's own pixels stay where they
-//! are: the title, a bar of the colours with its [ticks](Scale::ticks), or a box for each category. A bar's
-//! end is pointed where values lie beyond it; these have the colour of the end. "No value" is
-//! dark grey, [`NO_VALUE`], and has a box of its own where it occurs. Words that are longer than a line are cut
-//! short, and what does not fit is left out: below some forty pixels the words, below ten the whole legend.
+//! A [`Chart`] says what the numbers are; [`Chart::draw`] lays them along a [`Colormap`] by their
+//! [`Scale`]. A legend is a strip below the picture, of the same width, so that the picture's own pixels
+//! stay where they are: the title, a bar of the colours with its [ticks](Scale::ticks), or a box for each
+//! category. A bar's end is pointed where values lie beyond it; these have the colour of the end. "No
+//! value" is dark grey, [`NO_VALUE`], and has a box of its own where it occurs. Words that are longer than
+//! a line are cut short, and what does not fit is left out: below some forty pixels the words, below ten
+//! the whole legend.
 //!
 //! ```
 //! use kerrscope::display::chart::{Chart, Scale};
 //! use kerrscope::display::{Colormap, NO_VALUE};
 //!
 //! // How far light from each pixel of a row is shifted; the last one sees the hole.
-//! let values = [0.2, 0.5, 0.8, 1.1, 1.4, f32::NAN];
-//! let chart = Chart { range: Some([0.2, 1.4]), ..Chart::new("redshift factor g", "", Scale::Linear) };
+//! let values = [0.25, 0.5, 0.75, 1.0, 1.25, f32::NAN];
+//! let chart = Chart { range: Some([0.25, 1.25]), ..Chart::new("redshift factor g", "", Scale::Linear) };
 //! let picture = chart.draw(&values, 6, 1)?;
 //! assert_eq!(picture.pixels[0], Colormap::Viridis.color(0.0).map(|c| c as f32));
 //! assert_eq!(picture.pixels[5], NO_VALUE.map(|c| c as f32));
-//!
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -40,15 +40,15 @@ use rayon::prelude::*;
 /// What a plane of numbers is, and how it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
-    /// What the numbers are, such as "redshift factor g". Lines of a legend break at spaces, but not at those that
-    /// Unicode calls no-break.
+    /// What the numbers are, such as "redshift factor g". Lines of a legend break at spaces, but not at
+    /// those that Unicode calls no-break.
     pub title: String,
     /// Their unit, such as "M" or "rad"; empty for none. It stands in brackets behind the title.
     pub unit: String,
     /// What kind of numbers they are.
     pub scale: Scale,
-    /// The values at the ends of the colour map; none for those of [`Scale::value_range`]. That of a cyclic scale is
-    /// one period long.
+    /// The values at the ends of the colour map; none for those of [`Scale::value_range`]. That of a cyclic
+    /// scale is one period long.
     pub range: Option<[f64; 2]>,
     /// The colours.
     pub colormap: Colormap,
@@ -85,7 +85,8 @@ impl Chart {
     /// ```
     ///
     /// # Errors
-    /// When there are not `width` × `height` values, or none, and when the range or the period cannot be shown.
+    /// When there are not `width` × `height` values, or none, and when the range or the period cannot be
+    /// shown.
     pub fn draw(&self, values: &[f32], width: u32, height: u32) -> Result<Picture, ChartError> {
         self.check(values.len(), width, height).map_err(|fault| ChartError { fault })?;
         let range = self.range.or_else(|| self.scale.value_range(values));

@@ -69,20 +69,20 @@ impl Scale {
     /// A range that shows nearly all of the values; none if there is no value in them to show, and for
     /// categories.
     ///
-    /// - Linear: the 0.5 % and the 99.5 % quantile of the finite values (the nearest of the sorted values, so that
-    ///   up to 100 of them give the smallest and the largest), moved outwards to multiples of the largest
-    ///   of 1, 2 and 5 times a power of ten that is at most a tenth of their distance.
-    /// - Logarithmic: the same quantiles of the finite values above 0, moved outwards to powers of ten; or, if
-    ///   they are less than a factor of ten apart, to 1, 2 or 5 times one, and if these are then the same,
-    ///   by one more such number each.
+    /// - Linear: the 0.5 % and the 99.5 % quantile of the finite values (the nearest of the sorted values,
+    ///   so that up to 100 of them give the smallest and the largest), moved outwards to multiples of the
+    ///   largest of 1, 2 and 5 times a power of ten that is at most a tenth of their distance.
+    /// - Logarithmic: the same quantiles of the finite values above 0, moved outwards to powers of ten; or,
+    ///   if they are less than a factor of ten apart, to 1, 2 or 5 times one, and if these are then the
+    ///   same, by one more such number each.
     /// - Cyclic: from 0 to the period.
     ///
-    /// Where the quantiles differ by less than 1e-5 of the larger amount, the smallest and the largest of the values
-    /// take their place; where these do so too, a linear range is first widened by a tenth of that amount, or
-    /// by 1 if it is 0, to either side.
+    /// Where the quantiles differ by less than 1e-5 of the larger amount, the smallest and the largest of
+    /// the values take their place; where these do so too, a linear range is first widened by a tenth of
+    /// that amount, or by 1 if it is 0, to either side.
     ///
-    /// Where all that can be shown are infinities (or, for a logarithmic scale, zeros), the range is from 0 to 1,
-    /// or from 1 to 10.
+    /// Where all that can be shown are infinities (or, for a logarithmic scale, zeros), the range is from 0
+    /// to 1, or from 1 to 10.
     ///
     /// ```
     /// use kerrscope::display::chart::Scale;

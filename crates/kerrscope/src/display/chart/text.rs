@@ -29,8 +29,8 @@ const fn lowered(c: char) -> Option<char> {
     })
 }
 
-/// The characters of a text with their places from its left end and baseline, and its width. `size` is that of
-/// an em in pixels. A character that the font lacks shows as a box.
+/// The characters of a text with their places from its left end and baseline, and its width. `size` is that
+/// of an em in pixels. A character that the font lacks shows as a box.
 fn set(text: &str, size: f32) -> (Vec<Glyph>, f32) {
     let mut right = 0.0;
     let glyphs = text.chars().map(|c| {
