@@ -40,9 +40,41 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
 }
 
-/// Unit, integration and documentation tests. They need nothing but Rust.
+/// Unit, integration and documentation tests. Where there is a Python, those that compare with other
+/// programs run too; otherwise they say that they are skipped.
 fn test() -> Result<(), String> {
-    cargo(&["test", "--workspace", "--locked"], &[])
+    let python = python();
+    let environment: Vec<_> = python.iter().map(|path| ("KERRSCOPE_TEST_PYTHON", path.as_str())).collect();
+    cargo(&["test", "--workspace", "--locked"], &environment)
+}
+
+/// A Python environment under `target/` with what the tests need.
+fn python() -> Option<String> {
+    let folder = root().join("target/python");
+    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
+    let wanted = root().join("crates/kerrscope/tests/requirements.txt");
+    let stamp = folder.join("requirements.txt");
+    let same = std::fs::read(&stamp).is_ok_and(|made| std::fs::read(&wanted).is_ok_and(|now| made == now));
+    if !same {
+        let run = |program: &Path, arguments: &[&std::ffi::OsStr]| {
+            Command::new(program).args(arguments).status().is_ok_and(|status| status.success())
+        };
+        let made = run(Path::new("python3"), &["-m".as_ref(), "venv".as_ref(), folder.as_os_str()])
+            && run(
+                &python,
+                &["-m", "pip", "install", "-q", "-r"]
+                    .map(AsRef::as_ref)
+                    .into_iter()
+                    .chain([wanted.as_os_str()])
+                    .collect::<Vec<_>>(),
+            )
+            && std::fs::copy(&wanted, &stamp).is_ok();
+        if !made {
+            eprintln!("xtask: no Python environment can be made; tests that need one are skipped");
+            return None;
+        }
+    }
+    Some(python.to_string_lossy().into_owned())
 }
 
 fn check() -> Result<(), String> {

@@ -12,11 +12,13 @@ mod report;
 mod scene;
 mod shadow;
 mod side_view;
+mod source;
 mod trace;
 mod validate;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use report::Failure;
+use std::io::IsTerminal;
 use std::process::ExitCode;
 
 /// Pictures of black holes, every pixel along null geodesics of the actual metric.
@@ -79,7 +81,9 @@ enum Format {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     if arguments.talk.verbose {
-        tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).init();
+        let colour =
+            std::io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|v| v.is_empty());
+        tracing_subscriber::fmt().with_writer(std::io::stderr).with_target(false).with_ansi(colour).init();
     }
     let outcome = match arguments.command.unwrap_or(Command::Render(render::Arguments::default())) {
         Command::Render(a) => render::run(&a, arguments.talk.quiet),

@@ -2,11 +2,12 @@
 
 use crate::progress;
 use crate::report::Failure;
+use crate::source::Source;
 use crate::{Format, print, print_json};
 use indicatif::ProgressBar;
-use kerrscope::output::Provenance;
-use kerrscope::output::png::{Depth, Png};
-use kerrscope::render::{Film, Stage, draw, instruction_level};
+use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
+use kerrscope::output::Format as FileFormat;
+use kerrscope::render::{Film, Stage, Stopped, Watch, draw, instruction_level};
 use kerrscope::scene::Scene;
 use serde::Serialize;
 use std::num::NonZeroUsize;
@@ -18,19 +19,23 @@ use tracing::info;
 #[derive(clap::Args, Debug, Default)]
 #[command(after_help = "Examples:\n  \
     kerrscope render scenes/thesis-4.8.toml -o hole.png\n  \
-    kerrscope render --set spacetime.spin=0.5 --set render.width=1920 --set render.height=1080")]
+    kerrscope render --set spacetime.spin=0.5 --set render.width=1920 --set render.height=1080\n  \
+    kerrscope render -o hole.png -o hole.exr --set 'render.layers=[\"g\", \"r\"]'\n  \
+    kerrscope render --set render.samples=1024 --resume   # again after an interruption")]
 pub struct Arguments {
-    /// Scene file (TOML); without one, the built-in scene
-    scene: Option<PathBuf>,
-    /// File to write; may be given several times. Without it, the scene's name with .png here
+    #[command(flatten)]
+    source: Source,
+    /// File to write, .png or .exr; may be given several times. Without it, the scene's name with
+    /// .png here
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Override a key of the scene; may be given several times
-    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
-    set: Vec<String>,
     /// Threads to use; without it, one for each processor
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
+    /// Go on from where an interrupted render of the same scene to the same file was; start afresh if
+    /// there is none
+    #[arg(long)]
+    resume: bool,
     /// What traces the rays (as --set render.engine=…)
     #[arg(long, value_name = "ENGINE")]
     engine: Option<String>,
@@ -56,18 +61,21 @@ struct Output {
 
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
-    let mut overrides = arguments.set.clone();
-    overrides.extend(arguments.engine.iter().map(|engine| format!("render.engine={engine}")));
-    let scene = Scene::load(arguments.scene.as_deref(), &overrides)?;
+    let engine = arguments.engine.iter().map(|engine| format!("render.engine={engine}"));
+    let scene = arguments.source.load(engine)?;
     let outputs = outputs(arguments)?;
     let stage = Stage::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
     info!(rays = stage.rays(), "scene ready");
-    let film = draw_in_pool(&stage, arguments.threads, quiet)?;
+    let checkpoint = checkpoint(&scene, &outputs[0], arguments.resume)?;
+    let film = draw_in_pool(&stage, checkpoint.as_ref(), arguments.threads, quiet)?;
     info!(given_up = film.tally.given_up, steps = film.tally.steps, "rays traced");
     for path in &outputs {
-        write(&scene, &film, path)?;
+        let format = FileFormat::of(path).unwrap_or(FileFormat::Png);
+        format.write(path, &scene, &film).map_err(|e| Failure::Failed(e.to_string()))?;
         info!(path = %path.display(), "written");
     }
+    // Only now is the work safe.
+    checkpoint.map_or(Ok(()), Checkpoint::remove).map_err(|e| Failure::Failed(e.to_string()))?;
     if quiet && arguments.format == Format::Text {
         return Ok(());
     }
@@ -77,7 +85,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
 /// The files to write, every one of a format that is known.
 fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     if arguments.output.is_empty() {
-        let stem = arguments.scene.as_deref().and_then(Path::file_stem);
+        let stem = arguments.source.scene.as_deref().and_then(Path::file_stem);
         let name = stem.map_or_else(|| PathBuf::from("kerrscope"), PathBuf::from);
         // Not `with_extension`: a name such as thesis-4.8 has a dot of its own.
         let mut name = name.into_os_string();
@@ -87,36 +95,55 @@ fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
     let wrong: Vec<String> = arguments
         .output
         .iter()
-        .filter(|path| !path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")))
-        .map(|path| format!("{}: pictures can be written as .png", path.display()))
+        .filter(|path| FileFormat::of(path).is_none())
+        .map(|path| format!("{}: pictures can be written as .png or .exr", path.display()))
         .collect();
     if wrong.is_empty() { Ok(arguments.output.clone()) } else { Err(Failure::Input(wrong.join("\nerror: "))) }
 }
 
-fn draw_in_pool(stage: &Stage, threads: Option<NonZeroUsize>, quiet: bool) -> Result<Film, Failure> {
+/// The checkpoint beside the first output; none if that is no ordinary file.
+fn checkpoint(scene: &Scene, output: &Path, resume: bool) -> Result<Option<Checkpoint>, Failure> {
+    if output.metadata().is_ok_and(|about| !about.is_file()) {
+        return Ok(None);
+    }
+    let mut path = output.as_os_str().to_owned();
+    path.push(".checkpoint");
+    let path = Path::new(&path);
+    let identity = Identity::of_render(scene).map_err(|e| Failure::Input(e.to_string()))?;
+    let opened =
+        if resume { Checkpoint::resume(path, &identity) } else { Checkpoint::start(path, &identity) };
+    opened.map(Some).map_err(|error| match error {
+        CheckpointError::File(e) => Failure::Failed(e.to_string()),
+        wrong => Failure::Input(wrong.to_string()),
+    })
+}
+
+fn draw_in_pool(
+    stage: &Stage,
+    checkpoint: Option<&Checkpoint>,
+    threads: Option<NonZeroUsize>,
+    quiet: bool,
+) -> Result<Film, Failure> {
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads.map_or(0, NonZeroUsize::get))
         .build()
         .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
-    let stopped = progress::stop_flag();
+    let cancelled = progress::stop_flag();
     let bar = if quiet { ProgressBar::hidden() } else { progress::bar(stage.rays()) };
-    let film = pool.install(|| draw(stage, stopped, &|rays| bar.inc(rays)));
+    let watch = Watch { cancelled, progress: &|rays| bar.inc(rays), checkpoint };
+    let film = pool.install(|| draw(stage, &watch));
     bar.finish_and_clear();
-    film.ok_or(Failure::Interrupted)
-}
-
-fn write(scene: &Scene, film: &Film, path: &Path) -> Result<(), Failure> {
-    let made = Provenance {
-        version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene_toml: scene.to_toml(),
-        seed: scene.render.seed,
-        instruction_level: instruction_level().to_owned(),
-    };
-    let display = kerrscope::display::Display { exposure: scene.display.exposure, tone: scene.display.tone };
-    let depth = if scene.display.bits == 16 { Depth::Sixteen } else { Depth::Eight };
-    Png { display, depth }
-        .write(path, film.width, film.height, &film.pixels, &made)
-        .map_err(|e| Failure::Failed(e.to_string()))
+    film.map_err(|stopped| match stopped {
+        Stopped::Cancelled => Failure::Interrupted(match checkpoint.map(Checkpoint::path) {
+            Some(path) if path.exists() => {
+                format!("the same command with --resume goes on from {}", path.display())
+            }
+            _ => "nothing was written".to_owned(),
+        }),
+        Stopped::Checkpoint(error) => {
+            Failure::Failed(format!("{error}. What was done before is in it: go on with --resume"))
+        }
+    })
 }
 
 fn report(

@@ -14,8 +14,8 @@ pub enum Failure {
     Input(String),
     /// A check failed, or something could not be done.
     Failed(String),
-    /// The user stopped it.
-    Interrupted,
+    /// The user stopped it; what is left of the work.
+    Interrupted(String),
 }
 
 impl From<Faults> for Failure {
@@ -48,8 +48,8 @@ impl Failure {
                 eprintln!("error: {message}");
                 ExitCode::from(1)
             }
-            Self::Interrupted => {
-                eprintln!("interrupted; nothing was written");
+            Self::Interrupted(rest) => {
+                eprintln!("interrupted; {rest}");
                 ExitCode::from(130)
             }
         }

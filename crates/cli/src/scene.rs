@@ -1,28 +1,32 @@
 //! `kerrscope scene`: a scene with every default written out.
 
-use crate::print;
 use crate::report::Failure;
-use kerrscope::scene::Scene;
-use std::path::PathBuf;
+use crate::source::Source;
+use crate::{Format, print, print_json};
 
 /// Checks a scene and prints it whole, as TOML.
 #[derive(clap::Args, Debug)]
 #[command(after_help = "Examples:\n  \
     kerrscope scene --print > my-scene.toml\n  \
     kerrscope scene scenes/thesis-4.8.toml --print --set spacetime.spin=0.5\n  \
-    kerrscope scene my-scene.toml            # only checks it")]
+    kerrscope scene my-scene.toml            # only checks it\n  \
+    kerrscope scene hole.png --print         # what a picture was made of")]
 pub struct Arguments {
-    /// Scene file (TOML); without one, the built-in scene
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    source: Source,
     /// Print the scene with every default
     #[arg(long)]
     print: bool,
-    /// Override a key of the scene; may be given several times
-    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
-    set: Vec<String>,
+    /// How to print it: as TOML, or as JSON
+    #[arg(long, value_enum, default_value_t, requires = "print")]
+    format: Format,
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let scene = Scene::load(arguments.scene.as_deref(), &arguments.set)?;
-    if arguments.print { print(scene.to_toml().trim_end()) } else { Ok(()) }
+    let scene = arguments.source.load([])?;
+    match (arguments.print, arguments.format) {
+        (false, _) => Ok(()),
+        (true, Format::Text) => print(scene.to_toml().trim_end()),
+        (true, Format::Json) => print_json(&scene.file().to_json()),
+    }
 }

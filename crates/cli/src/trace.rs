@@ -2,6 +2,7 @@
 
 use crate::report::Failure;
 use crate::side_view;
+use crate::source::Source;
 use crate::{parse_distance, parse_finite, parse_inclination, parse_spin, print, print_json};
 use clap::ValueEnum;
 use kerrscope::camera::Camera;
@@ -13,7 +14,6 @@ use kerrscope::spacetime::metric::Kerr;
 use kerrscope::spacetime::observer::impact_ray;
 use serde::Serialize;
 use std::fmt::Write;
-use std::path::PathBuf;
 
 /// The ray is that of a pixel of a scene, or that of impact parameters seen by a static
 /// observer. Lengths and times in M, angles in radians, in Boyer-Lindquist coordinates.
@@ -23,9 +23,8 @@ use std::path::PathBuf;
     kerrscope trace scenes/thesis-4.8.toml --pixel 200,80\n  \
     kerrscope trace --spin 0.9 --inclination 85 --distance 20 --alpha 4 --beta 3 --path 400 --format svg > ray.svg")]
 pub struct Arguments {
-    /// Scene file (TOML); without one, the built-in scene, or the hole given by --spin
-    #[arg(conflicts_with_all = ["spin", "inclination", "distance"])]
-    scene: Option<PathBuf>,
+    #[command(flatten)]
+    source: Source,
     /// Spin a, from -1 to 1
     #[arg(long, value_name = "A", value_parser = parse_spin, allow_hyphen_values = true, requires = "inclination")]
     spin: Option<f64>,
@@ -47,9 +46,6 @@ pub struct Arguments {
     /// Impact parameter along the projected spin axis, M
     #[arg(long, value_name = "M", value_parser = parse_finite, allow_hyphen_values = true, requires = "alpha")]
     beta: Option<f64>,
-    /// Override a key of the scene; may be given several times
-    #[arg(long, value_name = "PATH=VALUE", allow_hyphen_values = true)]
-    set: Vec<String>,
     /// What traces the ray (as --set render.engine=…)
     #[arg(long, value_name = "ENGINE")]
     engine: Option<String>,
@@ -145,9 +141,8 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
     if let (Some(spin), Some(inclination)) = (arguments.spin, arguments.inclination) {
         return hole(arguments, spin, inclination);
     }
-    let mut overrides = arguments.set.clone();
-    overrides.extend(arguments.engine.iter().map(|engine| format!("render.engine={engine}")));
-    let scene = Scene::load(arguments.scene.as_deref(), &overrides)?;
+    let engine = arguments.engine.iter().map(|engine| format!("render.engine={engine}"));
+    let scene = arguments.source.load(engine)?;
     let spin = scene.spacetime.spin();
     let ray = if let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) {
         let place = scene.observer.place;
@@ -166,9 +161,10 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
     let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) else {
         return Err(Failure::Input("--spin needs a ray: give --alpha and --beta in M".to_owned()));
     };
-    if !arguments.set.is_empty() {
+    if arguments.source.scene.is_some() || !arguments.source.set.is_empty() {
         return Err(Failure::Input(
-            "--set changes a scene: leave out --spin and --inclination, or --set".to_owned(),
+            "a scene and --set do not go with --spin and --inclination: leave out one or the other"
+                .to_owned(),
         ));
     }
     if let Some(engine) = arguments.engine.as_deref().filter(|e| !matches!(*e, "auto" | "integrator")) {

@@ -44,8 +44,10 @@ fn a_picture_remakes_itself() {
     assert_eq!(made.seed, 9);
     fs::write(folder.path().join("again.toml"), made.to_string()).unwrap();
     assert!(run(folder.path(), &["render", "again.toml"]).status.success());
+    assert!(run(folder.path(), &["render", "a.png", "-o", "third.png"]).status.success());
     let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("a.png") == bytes("again.png"), "the scene in the picture makes the same picture");
+    assert!(bytes("a.png") == bytes("third.png"), "the picture itself does");
 }
 
 #[test]
@@ -120,5 +122,9 @@ fn interrupted_it_exits_with_130_and_keeps_the_old_file() {
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read(path.join("a.png")).unwrap(), b"old");
-    assert_eq!(fs::read_dir(path).unwrap().count(), 1, "no litter");
+    assert!(path.join("a.png.checkpoint").exists());
+    assert_eq!(fs::read_dir(path).unwrap().count(), 2, "no other litter");
+    let mut text = String::new();
+    std::io::Read::read_to_string(&mut child.stderr.take().unwrap(), &mut text).unwrap();
+    assert!(text.contains("--resume goes on from a.png.checkpoint"), "{text}");
 }

@@ -3,6 +3,7 @@
 pub use kerrscope_spacetime as spacetime;
 
 pub mod camera;
+pub mod checkpoint;
 pub mod disk;
 pub mod display;
 pub mod light;

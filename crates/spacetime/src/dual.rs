@@ -210,6 +210,19 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
         self.zip(x, self.value.atan2(x.value), |dy, dx| dy * along_y - dx * along_x)
     }
     #[inline(always)]
+    fn outline<R>(self, part: impl FnOnce() -> R) -> R {
+        self.value.outline(part)
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        S::any(mask)
+    }
+    /// A step function: its derivatives are zero.
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self::fixed(self.value.round())
+    }
+    #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         self.value.less(other.value)
     }

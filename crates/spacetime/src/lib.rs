@@ -11,6 +11,7 @@
 //!
 //! This crate does no input or output and knows no clock, no thread and no SI unit.
 
+pub mod closed;
 pub mod geodesic;
 pub mod kerr;
 pub mod metric;
@@ -23,5 +24,5 @@ mod scalar;
 pub mod tensor;
 
 pub use dual::Dual;
-pub use lanes::Lanes;
+pub use lanes::{Lanes, Level, OnLanes};
 pub use scalar::Scalar;

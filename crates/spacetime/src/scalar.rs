@@ -66,10 +66,21 @@ pub trait Scalar:
     fn atan2(self, x: Self) -> Self;
     /// self < other, lane by lane.
     fn less(self, other: Self) -> Self::Mask;
+    /// Whether the mask is true in any lane.
+    fn any(mask: Self::Mask) -> bool;
     /// `a` where the mask is true, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+    /// The nearest whole number; halves go to the even one.
+    fn round(self) -> Self;
     /// The real number in one lane; `lane` must be below [`Scalar::LANES`].
     fn lane(self, lane: usize) -> f64;
+
+    /// Runs a large part of a kernel as a function of its own, compiled for the same instructions: what
+    /// is inlined everywhere takes a compiler minutes.
+    #[inline(always)]
+    fn outline<R>(self, part: impl FnOnce() -> R) -> R {
+        part()
+    }
 
     /// self², exactly as `self * self`.
     #[inline(always)]
@@ -132,8 +143,16 @@ impl Scalar for f64 {
         self < other
     }
     #[inline(always)]
+    fn any(mask: bool) -> bool {
+        mask
+    }
+    #[inline(always)]
     fn select(mask: bool, a: Self, b: Self) -> Self {
         if mask { a } else { b }
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        self.round_ties_even()
     }
     #[inline(always)]
     fn lane(self, _lane: usize) -> f64 {

@@ -40,6 +40,61 @@ fn numbers(random: &mut Random) -> [f64; 8] {
     std::array::from_fn(|_| random.within(-3.0, 3.0))
 }
 
+/// Elementary functions agree with those of f64 to two units in the last place.
+#[inline(always)]
+fn elementary<L: Simd>(simd: L) {
+    let mut random = Random::new(22);
+    for round in 0..4000 {
+        // Sizes from 1e-12 to 1e5, and both signs.
+        let a: [f64; 8] = std::array::from_fn(|_| {
+            let size = 10f64.powf(random.within(-12.0, 5.0));
+            if random.within(-1.0, 1.0) < 0.0 { -size } else { size }
+        });
+        let b: [f64; 8] = std::array::from_fn(|k| match round % 8 {
+            0 => 0.0,
+            1 => -0.0,
+            2 => a[k],
+            3 => -a[k],
+            _ => random.within(-3.0, 3.0),
+        });
+        let (x, y) = (Lanes::new(simd, a), Lanes::new(simd, b));
+        let near = |what: &str, lanes: Lanes<L>, exact: &dyn Fn(usize) -> f64, scale: f64| {
+            for (k, got) in lanes.to_array().into_iter().enumerate() {
+                let exact = exact(k);
+                let error = (got - exact).abs() / exact.abs().max(scale);
+                assert!(error <= 2.0 * f64::EPSILON, "{what} of {}, {}: {got} for {exact}", a[k], b[k]);
+            }
+        };
+        near("sin", x.sin_cos().0, &|k| a[k].sin(), 1.0);
+        near("cos", x.sin_cos().1, &|k| a[k].cos(), 1.0);
+        let bounded = x.min(x.constant(690.0)).max(x.constant(-690.0));
+        near("exp", bounded.exp(), &|k| a[k].clamp(-690.0, 690.0).exp(), f64::MIN_POSITIVE);
+        near("ln", x.abs().ln(), &|k| a[k].abs().ln(), f64::MIN_POSITIVE);
+        near("atan2(x, y)", x.atan2(y), &|k| a[k].atan2(b[k]), f64::MIN_POSITIVE);
+        near("atan2(y, x)", y.atan2(x), &|k| b[k].atan2(a[k]), f64::MIN_POSITIVE);
+        for (got, (a, b)) in y.atan2(x).to_array().into_iter().zip(a.into_iter().zip(b)) {
+            assert_eq!(got.is_sign_negative(), b.atan2(a).is_sign_negative(), "the sign of zero");
+        }
+    }
+    let specials = [0.0, -0.0, 1.0, -1.0, 0.5, 1e-300, -1e-300, 700.0];
+    let x = Lanes::new(simd, specials);
+    let zero = x.constant(0.0);
+    for (got, x) in zero.atan2(x).to_array().into_iter().zip(specials) {
+        assert_eq!(got, 0f64.atan2(x), "atan2(0, {x})");
+    }
+    for (got, x) in x.round().to_array().into_iter().zip(specials) {
+        assert_eq!(got, x.round_ties_even());
+    }
+    assert!((x.constant(-1e4).exp().lane(0) / (-700f64).exp() - 1.0).abs() < 4e-16);
+}
+
+#[test]
+fn elementary_functions_are_exact_to_two_units() {
+    for level in levels() {
+        dispatch!(level, simd => elementary(simd));
+    }
+}
+
 /// One operation is one rounding: the same bits.
 #[inline(always)]
 fn operations<L: Simd>(simd: L) {
@@ -62,10 +117,6 @@ fn operations<L: Simd>(simd: L) {
         unary("√", x.abs().sqrt(), |a| a.abs().sqrt());
         unary("1/", x.recip(), |a| 1.0 / a);
         unary("||", x.abs(), f64::abs);
-        unary("sin", x.sin_cos().0, f64::sin);
-        unary("cos", x.sin_cos().1, f64::cos);
-        unary("exp", x.exp(), f64::exp);
-        unary("ln", x.abs().ln(), |a| a.abs().ln());
         unary("squared", x.squared(), |a| a * a);
         unary("+ 0.1", x + 0.1, |a| a + 0.1);
         unary("− 0.1", x - 0.1, |a| a - 0.1);
@@ -78,7 +129,6 @@ fn operations<L: Simd>(simd: L) {
         binary("/", x / y, |a, b| a / b);
         binary("min", x.min(y), f64::min);
         binary("max", x.max(y), f64::max);
-        binary("atan2", x.atan2(y), f64::atan2);
         binary("select", Lanes::select(x.less(y), x * 2.0, y), |a, b| if a < b { a * 2.0 } else { b });
         let (mut sum, mut rest, mut product) = (x, x, x);
         sum += y;
@@ -240,7 +290,8 @@ fn derivatives<L: Simd>(simd: L) {
             }
         }
     }
-    worst.below(2e-15, "derivatives");
+    // Elementary functions differ by two units in the last place, and there are five of them.
+    worst.below(1e-14, "derivatives");
 }
 
 #[test]

@@ -6,12 +6,17 @@
 //!
 //! The order is: exposure, tone curve, transfer function.
 
+mod picture;
 pub mod srgb;
 mod tone;
 
+pub use picture::{Depth, Picture};
 pub use tone::Tone;
 
+use rayon::prelude::*;
+
 use crate::light::Light;
+use crate::render::Film;
 
 /// Light brighter than this is shown as this: it is white on any screen, and sums
 /// and ratios of such values stay finite.
@@ -49,5 +54,12 @@ impl Display {
         // What is not a number is not above 0 either.
         let exposed = exposed.map(|c| if c > 0.0 { c.min(BRIGHTEST) } else { 0.0 });
         self.tone.apply(exposed).map(|c| srgb::encode(c.clamp(0.0, 1.0)))
+    }
+
+    /// The light of a film as a screen shows it.
+    pub fn develop(&self, film: &Film) -> Picture {
+        let encode = |light: &[f32; 3]| self.encode(Light::new(light.map(f64::from))).map(|c| c as f32);
+        let pixels = film.light.par_iter().map(encode).collect();
+        Picture { width: film.width, height: film.height, pixels }
     }
 }

@@ -28,7 +28,7 @@ impl FileError {
     }
 
     /// A file that could not be written.
-    pub(super) fn write(path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn write(path: &Path, error: &io::Error) -> Self {
         let (fault, mend) = match error.kind() {
             ErrorKind::PermissionDenied => {
                 ("no permission to write there".to_owned(), "choose another folder or change its permissions")
@@ -57,7 +57,7 @@ impl FileError {
     }
 
     /// A file that could not be read.
-    pub(super) fn read(path: &Path, error: &io::Error) -> Self {
+    pub(crate) fn read(path: &Path, error: &io::Error) -> Self {
         let (fault, mend) = match error.kind() {
             ErrorKind::NotFound => ("there is no such file".to_owned(), "check the path"),
             ErrorKind::PermissionDenied => ("no permission to read it".to_owned(), "change its permissions"),

@@ -4,9 +4,12 @@
 //! (see [`Provenance`]).
 
 mod error;
+pub mod exr;
 pub mod file;
+mod format;
 pub mod png;
 mod provenance;
 
 pub use error::FileError;
+pub use format::Format;
 pub use provenance::{Provenance, ProvenanceFault};

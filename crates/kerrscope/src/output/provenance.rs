@@ -1,7 +1,12 @@
 //! How a file was made.
 
 use std::fmt;
+use std::path::Path;
 use std::str::FromStr;
+
+use super::FileError;
+use crate::render::instruction_level;
+use crate::scene::Scene;
 
 /// What is needed to make a file again.
 ///
@@ -57,6 +62,28 @@ pub enum ProvenanceFault {
     /// A line is missing or its value is not of the right kind.
     #[error("its line {0:?} is missing or wrong")]
     Line(&'static str),
+}
+
+impl Provenance {
+    /// That of files made of a scene by this program.
+    pub fn of(scene: &Scene) -> Self {
+        Self {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            scene_toml: scene.to_toml(),
+            seed: scene.render.seed,
+            instruction_level: instruction_level().to_owned(),
+        }
+    }
+
+    /// The record in the text that was found in a file, if any.
+    pub(super) fn from_file(path: &Path, text: Option<String>) -> Result<Self, FileError> {
+        let wrong =
+            |fault: String| FileError::new("read", path, fault, "give a picture as kerrscope wrote it");
+        let text = text.ok_or_else(|| wrong("it does not say how kerrscope made it".to_owned()))?;
+        text.parse().map_err(|fault| {
+            wrong(format!("its text \"kerrscope\" is no record of how it was made: {fault}"))
+        })
+    }
 }
 
 const TITLE: &str = "# Rendered by kerrscope.";

@@ -1,19 +1,25 @@
 //! Rendering: every pixel's rays, in parallel, the same for any number of threads.
 
 mod film;
+mod layer;
+mod probe;
 mod sampling;
 mod stage;
+mod tally;
+mod tile;
 
-pub use film::{Film, Moments, Tally};
+pub use film::{Film, Moments, Plane};
+pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;
 pub use stage::{Replay, Stage, StageError, tracer};
+pub use tally::Tally;
 
-use crate::light::Light;
+use crate::checkpoint::Checkpoint;
+use crate::output::FileError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Edge of the square tiles that threads take, in pixels.
-const TILE: u32 = 16;
+use std::sync::{Mutex, PoisonError};
+use tile::{Tile, Tiling};
 
 /// The instructions that the rays are traced with: part of what a picture depends on.
 pub const fn instruction_level() -> &'static str {
@@ -26,70 +32,78 @@ pub const fn instruction_level() -> &'static str {
     }
 }
 
+/// What goes on beside the drawing of a picture.
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    /// Becomes true when the render shall stop.
+    pub cancelled: &'a AtomicBool,
+    /// Is told of each batch of rays that is done, from any thread.
+    pub progress: &'a (dyn Fn(u64) + Sync),
+    /// Where finished tiles are kept, and those of an earlier try are found.
+    pub checkpoint: Option<&'a Checkpoint>,
+}
+
+/// Why a picture was not finished.
+#[derive(Debug, thiserror::Error)]
+pub enum Stopped {
+    /// It was asked to stop.
+    #[error("the render was stopped")]
+    Cancelled,
+    /// The checkpoint cannot be written or read.
+    #[error(transparent)]
+    Checkpoint(#[from] FileError),
+}
+
 /// Draws a scene with the threads of the current rayon pool.
 ///
-/// `progress` is told of each batch of rays that is done, from any thread. If `cancelled`
-/// becomes true the render stops soon and nothing is returned.
-///
 /// ```
-/// use kerrscope::render::{Stage, draw};
+/// use kerrscope::render::{Stage, Watch, draw};
 /// use kerrscope::scene::Scene;
 /// # use std::path::Path;
 /// # use std::sync::atomic::AtomicBool;
 /// let scene = Scene::from_toml("[render]\nwidth = 16\nheight = 9\nsamples = 1", Path::new(""))?;
 /// let stage = Stage::new(&scene)?;
-/// let film = draw(&stage, &AtomicBool::new(false), &|_| {}).expect("not cancelled");
-/// assert_eq!(film.pixels.len(), 144);
+/// let cancelled = AtomicBool::new(false);
+/// let watch = Watch { cancelled: &cancelled, progress: &|_| {}, checkpoint: None };
+/// let film = draw(&stage, &watch)?;
+/// assert_eq!(film.light.len(), 144);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn draw(stage: &Stage, cancelled: &AtomicBool, progress: &(dyn Fn(u64) + Sync)) -> Option<Film> {
-    let [width, height] = stage.size();
-    let (columns, rows) = (width.div_ceil(TILE), height.div_ceil(TILE));
-    let tiles: Vec<Option<Tile>> = (0..columns * rows)
-        .into_par_iter()
-        .map(|number| {
-            if cancelled.load(Ordering::Relaxed) {
-                return None;
+///
+/// # Errors
+/// If it is stopped, or the checkpoint cannot be used. What was finished by then is in the checkpoint.
+pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
+    let tiling = Tiling::new(stage.size(), stage.rays_per_pixel());
+    let mut film = Film::blank(stage.size(), stage.channels());
+    let mut done = vec![false; tiling.count() as usize];
+    if let Some(checkpoint) = watch.checkpoint {
+        checkpoint.parts(|number, contents| {
+            if let Some(done @ false) = done.get_mut(number as usize) {
+                let area = tiling.area(number);
+                if let Some(tile) = Tile::decode(contents, area, stage.channels().len()) {
+                    film.place(&tile, area);
+                    *done = true;
+                }
             }
-            let tile = Tile::draw(stage, number % columns * TILE, number / columns * TILE);
-            progress(tile.tally.rays);
-            Some(tile)
-        })
-        .collect();
-    let mut pixels = vec![Light::DARK; width as usize * height as usize];
-    let mut tally = Tally::default();
-    for tile in tiles {
-        let tile = tile?;
-        tally.add(&tile.tally);
-        for (row, line) in tile.pixels.chunks_exact(tile.width).enumerate() {
-            let start = (tile.top + row) * width as usize + tile.left;
-            pixels[start..start + tile.width].copy_from_slice(line);
-        }
+        })?;
+        (watch.progress)(film.tally.rays);
     }
-    Some(Film { width, height, pixels, tally })
-}
-
-/// A finished tile.
-struct Tile {
-    left: usize,
-    top: usize,
-    width: usize,
-    pixels: Vec<Light>,
-    tally: Tally,
-}
-
-impl Tile {
-    fn draw(stage: &Stage, left: u32, top: u32) -> Self {
-        let [width, height] = stage.size();
-        let (right, bottom) = ((left + TILE).min(width), (top + TILE).min(height));
-        let mut replay = Replay::default();
-        let mut tally = Tally::default();
-        let mut pixels = Vec::with_capacity((TILE * TILE) as usize);
-        for y in top..bottom {
-            for x in left..right {
-                pixels.push(stage.pixel([x, y], &mut replay, &mut tally));
-            }
+    let film = Mutex::new(film);
+    let outcome = (0..tiling.count()).into_par_iter().filter(|&n| !done[n as usize]).try_for_each(|number| {
+        if watch.cancelled.load(Ordering::Relaxed) {
+            return Err(Stopped::Cancelled);
         }
-        Self { left: left as usize, top: top as usize, width: (right - left) as usize, pixels, tally }
+        let area = tiling.area(number);
+        let tile = Tile::draw(stage, area);
+        if let Some(checkpoint) = watch.checkpoint {
+            checkpoint.keep(number, &tile.encode())?;
+        }
+        film.lock().unwrap_or_else(PoisonError::into_inner).place(&tile, area);
+        (watch.progress)(tile.tally.rays);
+        Ok(())
+    });
+    if let (Err(Stopped::Cancelled), Some(checkpoint)) = (&outcome, watch.checkpoint) {
+        checkpoint.flush()?;
     }
+    outcome.map(|()| film.into_inner().unwrap_or_else(PoisonError::into_inner))
 }

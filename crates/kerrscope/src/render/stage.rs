@@ -1,13 +1,14 @@
 //! A scene made ready to be drawn: pictures loaded, camera and tracer set up.
 
-use super::{Sampler, Tally};
+use super::probe::Probe;
+use super::{Channel, Sampler, Tally};
 use crate::camera::Camera;
 use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::{Beam, Light};
 use crate::scene::{self, Method, Scene, ScreenKind, SkyPicture, Spacetime};
 use crate::sky::{Grid, Panorama, Sky, Stars};
-use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Scheme, Straight, Tracer};
+use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Straight, Tracer};
 use crate::spacetime::metric::{Kerr, Schwarzschild};
 use crate::spacetime::observer::ObserverError;
 use crate::texture::{Texture, TextureError};
@@ -19,6 +20,7 @@ pub struct Stage {
     camera: Camera,
     tracer: Box<dyn Tracer>,
     query: Query,
+    probe: Probe,
     disk: Option<Disk>,
     sky: Sky,
     sampler: Sampler,
@@ -59,6 +61,7 @@ impl Stage {
             samples: scene.render.samples,
             camera: Camera::new(scene)?,
             tracer: tracer(scene),
+            probe: Probe::new(scene, &query),
             query,
             disk,
             sky: sky(scene)?,
@@ -73,7 +76,17 @@ impl Stage {
 
     /// Rays in the whole picture.
     pub fn rays(&self) -> u64 {
-        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.samples)
+        u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.rays_per_pixel())
+    }
+
+    /// Rays of a pixel: its samples, and one more if there are data layers.
+    pub fn rays_per_pixel(&self) -> u32 {
+        self.samples + u32::from(!self.channels().is_empty())
+    }
+
+    /// The data layers that the scene asks for.
+    pub fn channels(&self) -> &[Channel] {
+        self.probe.channels()
     }
 
     /// The camera.
@@ -92,18 +105,23 @@ impl Stage {
         sum * (1.0 / f64::from(self.samples))
     }
 
+    /// What the data layers say of a pixel: of the ray through its centre, in the order of
+    /// [`channels`](Self::channels).
+    pub fn probe<'a>(
+        &'a self,
+        [x, y]: [u32; 2],
+        replay: &'a mut Replay,
+        tally: &mut Tally,
+    ) -> impl Iterator<Item = f32> + use<'a> {
+        let centre = [f64::from(x) + 0.5, f64::from(y) + 0.5];
+        let ray = self.follow(centre, self.probe.query(), replay, tally);
+        self.probe.values(ray, &replay.path, self.disk.as_ref())
+    }
+
     /// The light that arrives at a point of the picture.
-    pub fn ray(&self, [x, y]: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
-        let path = &mut replay.path;
-        if let Ok(ray) = self.camera.ray(x, y) {
-            self.tracer.trace(&ray, &self.query, path);
-        } else {
-            // No photon with such impact parameters gets here: dark.
-            path.clear();
-            path.fate = Fate::Captured;
-            path.error_estimate = 0.0;
-        }
-        tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
+    pub fn ray(&self, point: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
+        self.follow(point, &self.query, replay, tally);
+        let path = &replay.path;
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
             for crossing in &path.crossings {
@@ -118,6 +136,22 @@ impl Stage {
             _ => Light::DARK,
         };
         beam.end(background)
+    }
+
+    /// Follows the ray that arrives at a point of the picture.
+    fn follow(&self, [x, y]: [f64; 2], query: &Query, replay: &mut Replay, tally: &mut Tally) -> Option<Ray> {
+        let path = &mut replay.path;
+        let ray = self.camera.ray(x, y).ok();
+        if let Some(ray) = &ray {
+            self.tracer.trace(ray, query, path);
+        } else {
+            // No photon with such impact parameters gets here: dark.
+            path.clear();
+            path.fate = Fate::Captured;
+            path.error_estimate = 0.0;
+        }
+        tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
+        ray
     }
 }
 

@@ -111,6 +111,16 @@ impl Scene {
         }
     }
 
+    /// Reads a scene from the record in another file, which faults call `name`, and applies
+    /// overrides as [`load`](Self::load) does. Paths in it begin at `folder`.
+    ///
+    /// # Errors
+    ///
+    /// Everything that is wrong with it.
+    pub fn from_record(name: &str, text: &str, overrides: &[String], folder: &Path) -> Result<Self, Faults> {
+        read::scene(Ok(Source::new(name, text)), overrides, folder)
+    }
+
     /// The scene as it was built, with every default written out: the record of what a picture
     /// shows. Reading it gives this scene again.
     ///
@@ -118,6 +128,19 @@ impl Scene {
     /// that.
     pub fn to_toml(&self) -> String {
         self.file.to_toml()
+    }
+
+    /// The picture files that it shows.
+    pub fn pictures(&self) -> impl Iterator<Item = &Path> {
+        let disk = self.disk.as_ref().and_then(|disk| match &disk.surface {
+            Surface::Picture { path, .. } => Some(path.as_path()),
+            Surface::Ring { .. } => None,
+        });
+        let sky = match &self.sky.picture {
+            SkyPicture::Panorama { path, .. } => Some(path.as_path()),
+            _ => None,
+        };
+        disk.into_iter().chain(sky)
     }
 
     /// The keys that the scene was built from, with every default.

@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::disk::Mapping;
-use crate::display::Tone;
+use crate::display::{self, Depth};
+use crate::render::Layer;
 use crate::sky::Orientation;
 use kerrscope_spacetime::observer::{Motion, Place};
 use schemars::JsonSchema;
@@ -155,7 +156,7 @@ pub enum SkyPicture {
 }
 
 /// How finely and how exactly a picture is computed.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Render {
     /// Width in pixels, 1 to 16384.
     pub width: u32,
@@ -180,6 +181,8 @@ pub struct Render {
     /// Crossings of the disk's plane that count, the first met going back from the camera; what lies
     /// behind is seen through the rest.
     pub max_crossings: u32,
+    /// Data layers to compute beside the light, each once, in the order of their definition.
+    pub layers: Vec<Layer>,
 }
 
 /// What traces rays.
@@ -206,13 +209,11 @@ pub enum Method {
     Rk4,
 }
 
-/// How linear light is shown on a screen.
+/// What picture files show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Display {
-    /// Stops by which the picture is brightened.
-    pub exposure: f64,
-    /// How light brighter than the screen is brought down to it.
-    pub tone: Tone,
-    /// Bits of a colour channel, 8 or 16.
-    pub bits: u8,
+    /// How it is shown on a screen.
+    pub view: display::Display,
+    /// Bits of a colour channel.
+    pub depth: Depth,
 }

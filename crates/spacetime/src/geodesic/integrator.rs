@@ -230,7 +230,12 @@ impl<M: Metric> Tracer for Integrator<M> {
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
         path.clear();
         match ray.side {
-            Side::Reversed => self.follow(ray, query, path),
+            Side::Reversed => {
+                self.follow(ray, query, path);
+                if query.windings {
+                    path.windings = self.reversed.windings(ray.energy, &ray.start);
+                }
+            }
             Side::Ingoing => self.rise(ray, query, path),
         }
     }

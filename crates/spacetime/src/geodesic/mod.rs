@@ -45,6 +45,8 @@ pub struct Query {
     pub max_crossings: usize,
     /// Whether to integrate the elapsed coordinate time too.
     pub elapsed: bool,
+    /// Whether to count how often light went round.
+    pub windings: bool,
     /// How many points along the ray to keep, evenly spaced in its parameter; 0 for none. A camera on
     /// [`Side::Ingoing`] gets none.
     pub points: usize,
@@ -53,7 +55,7 @@ pub struct Query {
 impl Default for Query {
     /// The first eight equatorial crossings.
     fn default() -> Self {
-        Self { plane: [0.0, 0.0, 1.0], max_crossings: 8, elapsed: false, points: 0 }
+        Self { plane: [0.0, 0.0, 1.0], max_crossings: 8, elapsed: false, windings: false, points: 0 }
     }
 }
 
@@ -81,6 +83,10 @@ pub struct Path {
     pub crossings: Vec<Crossing>,
     /// Asymptotic direction (θ, φ) that the light comes from, φ unwrapped, if it escaped.
     pub direction: Option<[f64; 2]>,
+    /// How often light went round the hole, if asked for: periods of its motion in θ
+    /// (Gralla & Lupsasca 2020, eq. 36: the fractional number of orbits), which without spin is the
+    /// angle swept over 2π. NaN where that is not known.
+    pub windings: f64,
     /// Integration steps tried.
     pub steps: usize,
     /// Estimated error: radians of direction where the ray escaped, relative radius elsewhere.
@@ -97,6 +103,7 @@ impl Path {
         self.crossings.clear();
         self.direction = None;
         self.steps = 0;
+        self.windings = f64::NAN;
         self.error_estimate = f64::NAN;
         self.points.clear();
     }
@@ -106,4 +113,12 @@ impl Path {
 pub trait Tracer: Send + Sync {
     /// Follows `ray` into the past and replaces `path` with what it met.
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path);
+
+    /// Follows many rays and replaces as many paths: faster where vector instructions help. A ray's path
+    /// does not depend on the rays beside it.
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        for (ray, path) in rays.iter().zip(paths) {
+            self.trace(ray, query, path);
+        }
+    }
 }

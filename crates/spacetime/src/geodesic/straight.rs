@@ -24,6 +24,10 @@ impl Tracer for Straight {
         // From infinity to infinity it turns by half a circle, in the sense of J_z.
         let phi = if from_infinity { ray.azimuth + PI.copysign(ray.start.j[2]) } else { turned(&v) };
         path.direction = Some([theta, phi]);
+        if query.windings {
+            let side = cross(&n, &v);
+            path.windings = dot(&side, &side).sqrt().atan2(dot(&n, &v)) / (2.0 * PI);
+        }
         let (height, climb) = (dot(&n, &query.plane), dot(&v, &query.plane));
         // Distance along the line in units of the camera's distance; at infinity no scale is left,
         // and the crossing lies at x = n/w + v d with w d → −n·v.

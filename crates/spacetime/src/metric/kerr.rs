@@ -29,6 +29,18 @@ impl Kerr {
     }
 }
 
+/// w r around a hole of spin s, which is 1 at infinity.
+#[inline(always)]
+pub(crate) fn scaled_radius<S: Scalar>(spin: S, state: &Inverted<S>) -> S {
+    Field::at(&state.n, state.w * spin).r
+}
+
+/// The spatial part of l around a hole of spin s.
+#[inline(always)]
+pub(crate) fn principal_null<S: Scalar>(spin: S, state: &Inverted<S>) -> Vec3<S> {
+    Field::at(&state.n, state.w * spin).l
+}
+
 /// The quantities of the metric at a point.
 struct Field<S> {
     /// r.
@@ -259,6 +271,10 @@ impl Metric for Kerr {
 
     fn carter(&self, energy: f64, state: &Inverted<f64>) -> Option<f64> {
         Some(crate::kerr::carter(self.spin, energy, state))
+    }
+
+    fn windings(&self, energy: f64, start: &Inverted<f64>) -> f64 {
+        crate::closed::windings(self, energy, start)
     }
 
     #[inline(always)]

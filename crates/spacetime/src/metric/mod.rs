@@ -8,6 +8,7 @@ mod minkowski;
 mod schwarzschild;
 
 pub use kerr::Kerr;
+pub(crate) use kerr::{principal_null, scaled_radius};
 pub use minkowski::Minkowski;
 pub use schwarzschild::Schwarzschild;
 
@@ -93,6 +94,12 @@ pub trait Metric: Copy + Send + Sync {
     /// A further constant of the motion beside energy and L_z, where there is one.
     fn carter(&self, _energy: f64, _state: &Inverted<f64>) -> Option<f64> {
         None
+    }
+
+    /// How often light goes round from its start on, as
+    /// [`Path::windings`](crate::geodesic::Path::windings) has it; NaN where that is not known.
+    fn windings(&self, _energy: f64, _start: &Inverted<f64>) -> f64 {
+        f64::NAN
     }
 
     /// 1/radius in the inverted chart. As it stands here it is not a number at w = 0: a metric that

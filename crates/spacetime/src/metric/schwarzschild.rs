@@ -58,6 +58,14 @@ impl Metric for Schwarzschild {
         Kerr::new(0.0).time_offset(r)
     }
 
+    fn sensitivity(&self, energy: f64, start: &Inverted<f64>) -> f64 {
+        Kerr::new(0.0).sensitivity(energy, start)
+    }
+
+    fn windings(&self, energy: f64, start: &Inverted<f64>) -> f64 {
+        Kerr::new(0.0).windings(energy, start)
+    }
+
     fn norm(&self, energy: f64, state: &Inverted<f64>) -> f64 {
         Kerr::new(0.0).norm(energy, state)
     }

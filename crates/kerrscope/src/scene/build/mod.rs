@@ -5,6 +5,7 @@ mod disk;
 mod observer;
 mod screen;
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use kerrscope_spacetime::observer::Place;
@@ -14,6 +15,7 @@ use super::file::{self, SceneFile, SpacetimeName};
 use super::tree::Node;
 use super::valid::{Display, Method, Render, Sky, SkyPicture, Spacetime};
 use super::{Scene, shape};
+use crate::display::{self, Depth};
 use crate::sky::{Frame, Orientation};
 
 /// The largest number of rays in a picture: width × height × samples.
@@ -42,13 +44,14 @@ pub(super) fn build(
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
         render: builder.render(&file.render, observer.place),
-        display: Display {
-            exposure: file.camera.display.exposure,
-            tone: file.camera.display.tone,
-            bits: file.camera.display.bits,
-        },
+        display: display(&file.camera.display),
         file,
     }
+}
+
+fn display(file: &file::Display) -> Display {
+    let view = display::Display { exposure: file.exposure, tone: file.tone };
+    Display { view, depth: if file.bits == 16 { Depth::Sixteen } else { Depth::Eight } }
 }
 
 struct Builder<'a> {
@@ -187,6 +190,7 @@ impl Builder<'_> {
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
+            layers: file.layers.iter().copied().collect::<BTreeSet<_>>().into_iter().collect(),
         }
     }
 

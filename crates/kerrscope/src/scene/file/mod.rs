@@ -69,11 +69,34 @@ impl SceneFile {
         toml::to_string(self).expect("a scene is tables, numbers and text")
     }
 
+    /// The scene as JSON; infinite numbers, which JSON cannot say, are the text "inf".
+    ///
+    /// # Panics
+    ///
+    /// Never, as [`to_toml`](Self::to_toml).
+    pub fn to_json(&self) -> serde_json::Value {
+        json(toml::Value::try_from(self).expect("a scene is tables, numbers and text"))
+    }
+
     /// The JSON schema (2020-12) of a scene: every key with its type, range, default and meaning.
     ///
     /// `x-infinity` marks the numbers that may be `inf`, which JSON cannot say.
     pub fn schema() -> serde_json::Value {
         let settings = SchemaSettings::draft2020_12().with(|s| s.inline_subschemas = true);
         settings.into_generator().into_root_schema_for::<Self>().to_value()
+    }
+}
+
+fn json(value: toml::Value) -> serde_json::Value {
+    use toml::Value;
+    match value {
+        Value::String(text) => text.into(),
+        Value::Integer(whole) => whole.into(),
+        Value::Float(real) if real.is_finite() => real.into(),
+        Value::Float(real) => real.to_string().into(),
+        Value::Boolean(truth) => truth.into(),
+        Value::Datetime(date) => date.to_string().into(),
+        Value::Array(list) => list.into_iter().map(json).collect(),
+        Value::Table(table) => table.into_iter().map(|(key, value)| (key, json(value))).collect(),
     }
 }

@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::display::Tone;
+use crate::render::Layer;
 use crate::scene::{Engine, Method};
 
 /// The step of "rk4" if none is given.
@@ -46,6 +47,10 @@ pub struct Render {
     /// behind is seen through the rest.
     #[schemars(range(min = 1, max = 64))]
     pub max_crossings: u32,
+    /// Data layers to compute beside the light, of the rays through the pixels' centres; EXR files
+    /// hold them.
+    #[schemars(length(max = 12))]
+    pub layers: Vec<Layer>,
 }
 
 impl Default for Render {
@@ -62,6 +67,7 @@ impl Default for Render {
             step: None,
             max_steps: 10_000,
             max_crossings: 8,
+            layers: Vec::new(),
         }
     }
 }

@@ -3,6 +3,11 @@
 //! `L` proves which instructions the processor has (AVX-512, AVX2, SSE2, …), found
 //! at run time; on lesser levels one operation is several instructions.
 
+mod level;
+mod math;
+
+pub use level::{Level, OnLanes};
+
 use crate::scalar::Scalar;
 use fearless_simd::prelude::*;
 use fearless_simd::{Simd, f64x8, mask64x8};
@@ -32,12 +37,6 @@ impl<L: Simd> Lanes<L> {
     #[inline(always)]
     pub fn to_array(self) -> [f64; 8] {
         self.0.into()
-    }
-
-    /// A function without a vector form, lane by lane.
-    #[inline(always)]
-    fn map(self, f: impl Fn(f64) -> f64) -> Self {
-        Self(self.to_array().map(f).simd_into(self.0.token()))
     }
 }
 
@@ -124,28 +123,39 @@ impl<L: Simd> Scalar for Lanes<L> {
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
-        (self.map(f64::sin), self.map(f64::cos))
+        self.sine_cosine()
     }
     #[inline(always)]
     fn exp(self) -> Self {
-        self.map(f64::exp)
+        self.exponential()
     }
     #[inline(always)]
     fn ln(self) -> Self {
-        self.map(f64::ln)
+        self.logarithm()
     }
     #[inline(always)]
     fn atan2(self, x: Self) -> Self {
-        let (y, x) = (self.to_array(), x.to_array());
-        Self(std::array::from_fn(|i| y[i].atan2(x[i])).simd_into(self.0.token()))
+        self.angle(x)
     }
     #[inline(always)]
     fn less(self, other: Self) -> Self::Mask {
         self.0.simd_lt(other.0)
     }
     #[inline(always)]
+    fn outline<R>(self, part: impl FnOnce() -> R) -> R {
+        self.0.token().vectorize(part)
+    }
+    #[inline(always)]
+    fn any(mask: Self::Mask) -> bool {
+        mask.any_true()
+    }
+    #[inline(always)]
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
         Self(mask.select(a.0, b.0))
+    }
+    #[inline(always)]
+    fn round(self) -> Self {
+        Self(self.0.round_ties_even())
     }
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {

@@ -1,0 +1,107 @@
+//! What a ray says for the data layers.
+
+use super::layer::{Channel, Layer, ORDERS};
+use crate::disk::{Disk, DiskHit};
+use crate::scene::Scene;
+use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Side};
+use crate::spacetime::kerr::redshift_factor;
+use crate::spacetime::tensor::{Vec3, dot};
+
+/// The layers that a picture has besides light, and what is needed to fill them.
+#[derive(Clone, Debug)]
+pub(super) struct Probe {
+    channels: Vec<Channel>,
+    query: Query,
+    spin: Option<f64>,
+}
+
+impl Probe {
+    /// The layers of a scene whose rays for light ask for `query`.
+    pub(super) fn new(scene: &Scene, query: &Query) -> Self {
+        let layers = &scene.render.layers;
+        let query = Query {
+            max_crossings: (scene.render.max_crossings as usize).max(usize::from(ORDERS)),
+            elapsed: layers.contains(&Layer::T),
+            windings: layers.contains(&Layer::Windings),
+            ..*query
+        };
+        Self {
+            channels: layers.iter().copied().flat_map(Layer::channels).collect(),
+            query,
+            spin: scene.spacetime.spin(),
+        }
+    }
+
+    pub(super) fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// What to ask along the ray.
+    pub(super) fn query(&self) -> &Query {
+        &self.query
+    }
+
+    /// The values of the channels for a ray that was followed; without a ray, no photon arrives
+    /// there.
+    pub(super) fn values<'a>(
+        &'a self,
+        ray: Option<Ray>,
+        path: &'a Path,
+        disk: Option<&'a Disk>,
+    ) -> impl Iterator<Item = f32> + use<'a> {
+        self.channels.iter().map(move |channel| self.value(*channel, ray.as_ref(), path, disk) as f32)
+    }
+
+    fn value(&self, channel: Channel, ray: Option<&Ray>, path: &Path, disk: Option<&Disk>) -> f64 {
+        let crossing = || path.crossings.get(usize::from(channel.order.unwrap_or_default()));
+        match channel.layer {
+            Layer::Fate => match path.fate {
+                Fate::Escaped => 0.0,
+                Fate::Captured => 1.0,
+                Fate::StepLimit => 2.0,
+            },
+            Layer::Crossings => path.crossings.len().min(self.query.max_crossings) as f64,
+            Layer::Windings => path.windings,
+            Layer::Steps => path.steps as f64,
+            Layer::Error => path.error_estimate,
+            Layer::R => crossing().map_or(f64::NAN, |c| c.r),
+            Layer::Phi => crossing().map_or(f64::NAN, |c| c.phi),
+            Layer::T => crossing().map_or(f64::NAN, |c| c.elapsed),
+            Layer::G => crossing().zip(ray).and_then(|(c, ray)| self.redshift(ray, c.r)).unwrap_or(f64::NAN),
+            Layer::SkyTheta => path.direction.map_or(f64::NAN, |[theta, _]| theta),
+            Layer::SkyPhi => path.direction.map_or(f64::NAN, |[_, phi]| phi),
+            Layer::Depth => ray.zip(disk).map_or(f64::INFINITY, |(ray, disk)| depth(ray, path, disk)),
+        }
+    }
+
+    fn redshift(&self, ray: &Ray, r: f64) -> Option<f64> {
+        let (spin, [nx, ny, nz]) = (self.spin?, self.query.plane);
+        if spin != 0.0 && nx.hypot(ny) > 1e-12 {
+            return None;
+        }
+        // L about the plane's normal, which for the equator is L_z.
+        let along = dot(&ray.start.j, &[nx, ny, nz]);
+        let (lambda, energy) = match ray.side {
+            Side::Reversed => (-along / ray.energy, ray.energy),
+            Side::Ingoing => (along / ray.energy, -ray.energy),
+        };
+        // About −z a disk turns against the spin; its orbits are those of the mirrored hole.
+        redshift_factor(spin * nz.signum(), r, lambda, energy)
+    }
+}
+
+/// How far away the disk is where the ray first meets it.
+fn depth(ray: &Ray, path: &Path, disk: &Disk) -> f64 {
+    let met = path.crossings.iter().find(|c| {
+        let hit = DiskHit { radius: c.r, position: c.position };
+        disk.sheet(&hit).is_some_and(|sheet| sheet.opacity > 0.0)
+    });
+    let Some(crossing) = met else { return f64::INFINITY };
+    if ray.side == Side::Ingoing {
+        // What lies behind the change of sheets is known in other coordinates.
+        return f64::NAN;
+    }
+    let camera: Vec3<f64> = ray.start.n.map(|c| c / ray.start.w);
+    let apart: Vec3<f64> = std::array::from_fn(|i| crossing.position[i] - camera[i]);
+    dot(&apart, &apart).sqrt()
+}

@@ -1,0 +1,186 @@
+//! The tracer by closed forms.
+
+use std::f64::consts::PI;
+
+use super::batch::{Batch, Shared};
+use super::kernel::{self, Meeting, Radial, Start, Tables};
+use super::photon::Photon;
+use super::polar::{Cosines, FEW, FEW_REACH, MANY, frequency, size_of_nome};
+use super::quadrature::Nodes;
+use super::radial::{Class, Kind};
+use super::vortical::Vortex;
+use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
+use crate::kerr::horizons;
+use crate::lanes::Level;
+use crate::metric::{Inverted, Kerr, Metric};
+use crate::tensor::dot;
+
+/// Nodes for the motions that are not factored.
+const PLAIN_NODES: usize = 32;
+
+/// η below which light moves in the plane, or along a radius.
+pub(super) const PLANAR: f64 = 1e-28;
+
+/// Error of a ray far from the critical curve, rounding included; found by comparison with 48 nodes.
+pub(super) const TYPICAL_ERROR: f64 = 1e-12;
+
+/// Traces rays around a Kerr hole in closed form.
+///
+/// Rays of cameras inside the horizon or of no positive energy at infinity (within the ergosphere), rays whose
+/// points are asked for, and planes other than the equator are left to an integrator.
+///
+/// ```
+/// use kerrscope_spacetime::closed::ClosedForm;
+/// use kerrscope_spacetime::geodesic::{Path, Query, Tracer};
+/// use kerrscope_spacetime::observer::impact_ray;
+///
+/// // λ = 4, η = 30 around a = 0.9, seen from i = 1 rad.
+/// let (spin, inclination) = (0.9_f64, 1f64);
+/// let alpha = -4.0 / inclination.sin();
+/// let beta = -(30.0 - (alpha * alpha - spin * spin) * inclination.cos().powi(2)).sqrt();
+/// let ray = impact_ray(Some(spin), inclination, f64::INFINITY, [alpha, beta])?;
+/// let mut path = Path::default();
+/// ClosedForm::new(spin, 16, 10_000).trace(&ray, &Query::default(), &mut path);
+/// assert!((path.crossings[0].r - 9.966537978).abs() < 1e-9);
+/// # Ok::<(), kerrscope_spacetime::observer::ObserverError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct ClosedForm {
+    level: Level,
+    shared: Shared,
+    many: Box<Cosines<MANY>>,
+    fallback: Integrator<Kerr>,
+}
+
+impl ClosedForm {
+    /// A tracer around a hole of spin a, with so many nodes in each quadrature (12 to 48 make sense);
+    /// what is left to an integrator has at most `max_steps` steps.
+    pub fn new(spin: f64, nodes: usize, max_steps: usize) -> Self {
+        let shared = Shared {
+            metric: Kerr::new(-spin),
+            rim: 1.0 / horizons(spin).0,
+            nodes: Nodes::new(nodes),
+            plain: Nodes::new(nodes.max(PLAIN_NODES)),
+            cosines: Cosines::new(),
+        };
+        let fallback = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps);
+        Self { level: Level::best(), shared, many: Box::new(Cosines::new()), fallback }
+    }
+
+    /// The same with these vector instructions instead of the best that the processor has.
+    pub fn with_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    /// Whether a ray can be traced in closed form.
+    fn suits(ray: &Ray, query: &Query) -> bool {
+        let equatorial = query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt();
+        equatorial && query.points == 0 && ray.side == Side::Reversed && ray.energy > 0.0
+    }
+
+    fn follow<const PLAIN: bool, const TIMED: bool, const SPREAD: bool>(
+        &self,
+        start: &Start<f64>,
+        escapes: bool,
+        count: usize,
+        path: &mut Path,
+    ) {
+        let photon = &start.photon;
+        let nodes = if PLAIN { &self.shared.plain } else { &self.shared.nodes };
+        let mut meet = |meeting: &Meeting<f64>| {
+            path.crossings.push(Crossing {
+                position: [meeting.position[0], meeting.position[1], 0.0],
+                r: meeting.r,
+                phi: meeting.phi,
+                elapsed: if TIMED { meeting.elapsed } else { f64::NAN },
+            });
+        };
+        let direction = if photon.eta <= PLANAR {
+            let radial = Radial::<f64, PLAIN, TIMED>::new::<SPREAD>(start, nodes);
+            let tau = radial.total();
+            let [theta, turned] = if photon.eta < -PLANAR {
+                Vortex::new(photon).at(tau, &self.shared.plain)
+            } else {
+                let sin2 = (1.0 - photon.mu * photon.mu).max(f64::MIN_POSITIVE);
+                [photon.mu.acos(), photon.lambda * tau / sin2]
+            };
+            [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
+        } else if size_of_nome(photon) <= FEW_REACH {
+            let tables = Tables { nodes, cosines: &self.shared.cosines };
+            kernel::follow::<_, FEW, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
+        } else {
+            let tables = Tables { nodes, cosines: &*self.many };
+            kernel::follow::<_, MANY, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
+        };
+        if escapes {
+            path.fate = Fate::Escaped;
+            path.direction = Some(direction);
+        } else {
+            path.fate = Fate::Captured;
+        }
+    }
+}
+
+impl Tracer for ClosedForm {
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        if !Self::suits(ray, query) {
+            self.fallback.trace(ray, query, path);
+            return;
+        }
+        path.clear();
+        let metric = self.shared.metric;
+        let photon = Photon::new(metric.spin(), ray.energy, &ray.start);
+        let class = Class::of(&photon, self.shared.rim);
+        let offset = if photon.u > 0.0 { metric.azimuth_offset(1.0 / photon.u) } else { 0.0 };
+        let start = Start { photon, course: class.course, azimuth: ray.azimuth - offset };
+        let (escapes, count) = (class.escapes > 0.0, query.max_crossings);
+        match (class.kind(), query.elapsed) {
+            (Kind::Plain, false) => self.follow::<true, false, false>(&start, escapes, count, path),
+            (Kind::Plain, true) => self.follow::<true, true, false>(&start, escapes, count, path),
+            (Kind::Factored, false) => self.follow::<false, false, false>(&start, escapes, count, path),
+            (Kind::Factored, true) => self.follow::<false, true, false>(&start, escapes, count, path),
+            (Kind::Spread, false) => self.follow::<false, false, true>(&start, escapes, count, path),
+            (Kind::Spread, true) => self.follow::<false, true, true>(&start, escapes, count, path),
+        }
+        if query.windings {
+            path.windings = windings(&metric, ray.energy, &ray.start);
+        }
+        path.error_estimate = TYPICAL_ERROR * class.sensitivity;
+    }
+
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        let suits = rays.iter().all(|ray| Self::suits(ray, query));
+        if !suits || query.windings {
+            for (ray, path) in rays.iter().zip(paths) {
+                self.trace(ray, query, path);
+            }
+            return;
+        }
+        let mut rest = Vec::new();
+        self.level.run(Batch { shared: &self.shared, rays, query, paths, rest: &mut rest });
+        for ray in rest {
+            self.trace(&rays[ray], query, &mut paths[ray]);
+        }
+    }
+}
+
+/// How often light goes round a hole from a place and momentum on to its end, in the spacetime in which it
+/// is followed: the periods of its motion in θ, ωτ/2π. Without spin it is the angle swept over 2π. NaN
+/// where the motion in θ does not cross the plane (η < 0), and where the energy is not positive.
+pub(crate) fn windings(metric: &Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
+    if !(energy > 0.0) {
+        return f64::NAN;
+    }
+    let photon = Photon::new(metric.spin(), energy, start);
+    let class = Class::of(&photon, 1.0 / metric.horizon());
+    let start = Start { photon, course: class.course, azimuth: 0.0 };
+    let nodes = Nodes::new(PLAIN_NODES);
+    let tau = match class.kind() {
+        Kind::Plain => Radial::<f64, true, false>::new::<false>(&start, &nodes).total(),
+        Kind::Factored => Radial::<f64, false, false>::new::<false>(&start, &nodes).total(),
+        Kind::Spread => Radial::<f64, false, false>::new::<true>(&start, &nodes).total(),
+    };
+    // Light that moves along a radius has no motion in θ.
+    let radial = photon.lambda == 0.0 && photon.eta == 0.0;
+    if radial { 0.0 } else { frequency(&photon) * tau / (2.0 * PI) }
+}
