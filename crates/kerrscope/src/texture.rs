@@ -10,7 +10,9 @@
 //!   6e-8 to 65504, what is outside brought to these, what is no number dark). An EXR is
 //!   read block by block into at most 256 MiB: one of 8192×4096 RGB is kept whole, a larger
 //!   one is halved, by the mean of 2×2 pixels, until it fits. Pictures of other formats
-//!   are decoded whole, in at most 1 GiB, or refused.
+//!   are decoded whole.
+//! - A picture may have 16384×8192 pixels, in any shape with edges up to 65536, that are
+//!   768 MiB when decoded. What is larger is refused before it takes memory or time.
 //! - Integers are kept as the file has them, 1 to 8 bytes a pixel, and decoded through
 //!   a table when sampled. That loses nothing, and a panorama of 8192×4096 takes 100 MB
 //!   instead of the 400 MB of linear 32-bit numbers; linear 16-bit integers would merge
@@ -21,7 +23,10 @@
 mod error;
 mod exr;
 mod jpeg;
+mod limits;
 mod sphere;
+mod tiff;
+mod webp;
 
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -37,11 +42,8 @@ pub use sphere::Sphere;
 use crate::display::srgb;
 use crate::light::{Light, Sheet};
 
-/// Bytes that a decoded picture, and a file, may have.
-const MAX_BYTES: u64 = 1 << 30;
-
-/// Pixels that a picture may have along an edge.
-const MAX_EDGE: u32 = 65536;
+/// Bytes that a file may have.
+const MAX_FILE_BYTES: u64 = 1 << 30;
 
 static LINEAR_8: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(255));
 static LINEAR_16: LazyLock<Vec<f32>> = LazyLock::new(|| linear_table(65535));
@@ -89,7 +91,7 @@ impl Texture {
     ///
     /// # Errors
     /// When the file cannot be read, is empty, cut short, damaged or of another format,
-    /// or when the picture would take more than 1 GiB or has an edge above 65536 pixels.
+    /// or when the picture is too large.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, TextureError> {
         let path = path.as_ref();
         read(path)
@@ -106,9 +108,12 @@ impl Texture {
             return Err(TextureFault::Empty);
         }
         let format = image::guess_format(bytes).map_err(|_| TextureFault::Foreign(None))?;
+        let mut bytes = bytes;
         match format {
             ImageFormat::OpenExr => return exr::decode(bytes),
-            ImageFormat::Png | ImageFormat::Tiff | ImageFormat::WebP | ImageFormat::Hdr => {}
+            ImageFormat::Png | ImageFormat::Hdr => {}
+            ImageFormat::Tiff => tiff::check(bytes)?,
+            ImageFormat::WebP => bytes = webp::whole(bytes).ok_or(TextureFault::Truncated)?,
             // The JPEG decoder fills what is missing with grey.
             ImageFormat::Jpeg if jpeg::is_whole(bytes) => {}
             ImageFormat::Jpeg => return Err(TextureFault::Truncated),
@@ -117,20 +122,21 @@ impl Texture {
                 return Err(TextureFault::Foreign(name));
             }
         }
-        let mut decoder = ImageReader::with_format(Cursor::new(bytes), format)
-            .into_decoder()
-            .map_err(TextureFault::from_image)?;
+        let memory = |bytes| {
+            let mut limits = Limits::no_limits();
+            limits.max_alloc = Some(bytes);
+            limits
+        };
+        let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+        reader.limits(memory(limits::MAX_ANCILLARY_BYTES));
+        let mut decoder = reader.into_decoder().map_err(TextureFault::from_image)?;
         let (width, height) = decoder.dimensions();
-        if width == 0 || height == 0 {
-            return Err(TextureFault::Damaged("the picture has no pixels".to_owned()));
+        limits::check(width, height, decoder.total_bytes())?;
+        if format == ImageFormat::Jpeg {
+            jpeg::check(bytes, width, height)?;
         }
-        if width > MAX_EDGE || height > MAX_EDGE || decoder.total_bytes() > MAX_BYTES {
-            return Err(TextureFault::TooLarge { width, height });
-        }
-        let mut limits = Limits::default();
         // The buffer of the picture itself and the decoder's own.
-        limits.max_alloc = Some(2 * MAX_BYTES);
-        decoder.set_limits(limits).map_err(TextureFault::from_image)?;
+        decoder.set_limits(memory(2 * limits::MAX_BYTES)).map_err(TextureFault::from_image)?;
         let orientation = decoder.orientation().map_err(TextureFault::from_image)?;
         let mut image = DynamicImage::from_decoder(decoder).map_err(TextureFault::from_image)?;
         image.apply_orientation(orientation);
@@ -222,7 +228,12 @@ fn arranged<C: Copy>(channels: &[C], light: impl Fn(C) -> f64, alpha: impl Fn(C)
 
 /// Light or alpha as it is kept.
 fn half(x: f32) -> f16 {
-    f16::from_f32(if x.is_nan() { 0.0 } else { x.clamp(0.0, f16::MAX.to_f32()) })
+    f16::from_f32(bounded(x))
+}
+
+/// Light or alpha within what can be kept.
+fn bounded(x: f32) -> f32 {
+    if x.is_nan() { 0.0 } else { x.clamp(0.0, f16::MAX.to_f32_const()) }
 }
 
 fn finite(x: f64) -> f64 {
@@ -259,9 +270,9 @@ fn read(path: &Path) -> Result<Vec<u8>, TextureFault> {
     file.by_ref().take(32).read_to_end(&mut bytes)?;
     // A foreign file may be a device without end; its beginning is enough to refuse it.
     if image::guess_format(&bytes).is_ok() {
-        file.take(MAX_BYTES).read_to_end(&mut bytes)?;
+        file.take(MAX_FILE_BYTES).read_to_end(&mut bytes)?;
     }
-    if bytes.len() as u64 > MAX_BYTES {
+    if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(TextureFault::FileTooLarge);
     }
     Ok(bytes)

@@ -11,7 +11,7 @@
 //! There is no date in the file: the same picture is the same bytes.
 
 use std::fs::File;
-use std::io::{self, BufReader, Write};
+use std::io::{self, BufRead, BufReader, Seek, Write};
 use std::path::Path;
 
 use png::{BitDepth, ColorType, Compression, EncodingError, SrgbRenderingIntent};
@@ -124,6 +124,14 @@ fn plain(error: EncodingError) -> io::Error {
 /// When the file cannot be read, is no PNG, or holds no record of this program.
 pub fn read_provenance(path: &Path) -> Result<Provenance, FileError> {
     let file = File::open(path).map_err(|e| FileError::read(path, &e))?;
+    decode_provenance(BufReader::new(file), path)
+}
+
+/// Reads from the contents of a PNG file how it was made. `path` is what errors call it.
+///
+/// # Errors
+/// As [`read_provenance`].
+pub fn decode_provenance(file: impl BufRead + Seek, path: &Path) -> Result<Provenance, FileError> {
     let text = find_text(file).map_err(|error| match error {
         png::DecodingError::IoError(e) => FileError::read(path, &e),
         other => FileError::new("read", path, other.to_string(), "give a PNG file that is whole"),
@@ -131,19 +139,17 @@ pub fn read_provenance(path: &Path) -> Result<Provenance, FileError> {
     Provenance::from_file(path, text)
 }
 
-fn find_text(file: File) -> Result<Option<String>, png::DecodingError> {
-    let mut reader = png::Decoder::new(BufReader::new(file)).read_info()?;
+fn find_text(file: impl BufRead + Seek) -> Result<Option<String>, png::DecodingError> {
+    let mut reader = png::Decoder::new(file).read_info()?;
     let find = |info: &png::Info<'_>| {
-        info.utf8_text
-            .iter()
-            .find(|chunk| chunk.keyword == KEYWORD)
-            .map(png::text_metadata::ITXtChunk::get_text)
-            .transpose()
+        let mut text = info.utf8_text.iter().find(|chunk| chunk.keyword == KEYWORD)?.clone();
+        // Other programs may compress it. This refuses what unpacks to more than 2 MiB.
+        Some(text.decompress_text().and_then(|()| text.get_text()))
     };
-    if let Some(text) = find(reader.info())? {
-        return Ok(Some(text));
+    if let Some(text) = find(reader.info()) {
+        return text.map(Some);
     }
     // Other programs move text behind the pixels.
     reader.finish()?;
-    find(reader.info())
+    find(reader.info()).transpose()
 }

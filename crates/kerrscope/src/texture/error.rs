@@ -39,13 +39,16 @@ pub enum TextureFault {
     Damaged(String),
     /// The picture is larger than this program takes.
     #[error(
-        "{width}×{height} pixels are more than the 1 GiB, or the 65536 along an edge, that a picture may have"
+        "{width}×{height} pixels of {mebibytes} MiB are more than a picture may have: \
+         as many as 16384×8192, 65536 along an edge, and 768 MiB"
     )]
     TooLarge {
         /// Pixels along the top edge.
         width: u32,
         /// Pixels along the left edge.
         height: u32,
+        /// What they take, in units of 2^20 bytes.
+        mebibytes: u64,
     },
     /// The file itself is larger than this program takes.
     #[error("the file has more than 1 GiB")]
@@ -56,7 +59,8 @@ impl TextureFault {
     pub(super) fn from_image(error: ImageError) -> Self {
         match error {
             ImageError::IoError(e) if e.kind() == io::ErrorKind::UnexpectedEof => Self::Truncated,
-            ImageError::IoError(e) => Self::Io(e),
+            // The decoders read from memory: it is not the disk that is at fault.
+            ImageError::IoError(e) => Self::Damaged(e.to_string()),
             ImageError::Unsupported(e) => Self::Unsupported(e.to_string()),
             other => Self::Damaged(other.to_string()),
         }

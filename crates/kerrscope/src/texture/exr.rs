@@ -3,14 +3,24 @@
 use std::io::Cursor;
 
 use exr::error::Error;
-use exr::meta::MetaData;
+use exr::meta::header::Header;
+use exr::meta::{BlockDescription, MetaData};
 use exr::prelude::{ReadChannels, ReadLayers, Text, Vec2, read};
 use half::f16;
 
-use super::{MAX_EDGE, Texels, Texture, TextureFault, half};
+use super::{Texels, Texture, TextureFault, bounded, half, limits};
 
 /// Bytes that the pixels may take; what has more is made smaller as it is read.
 const MAX_BYTES: usize = 256 << 20;
+
+/// Bytes of all blocks: two of a sample in red, green, blue and alpha of the largest picture.
+const MAX_UNPACKED_BYTES: u64 = 8 * limits::MAX_PIXELS;
+
+/// Bytes of a block, in all its channels, as it is written and read: it takes four times as many.
+const MAX_BLOCK_BYTES: u64 = 256 << 20;
+
+/// Bytes of the blocks that are unpacked at the same time.
+const MAX_PARALLEL_BYTES: u64 = 128 << 20;
 
 /// Reads the first layer with red, green and blue, at its full resolution.
 ///
@@ -27,60 +37,92 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Texture, TextureFault> {
         .find(|header| !header.deep && ["R", "G", "B"].iter().all(|name| has(&header.channels, name)))
         .ok_or_else(|| TextureFault::Unsupported("no layer has the channels R, G and B".to_owned()))?;
     let window = header.shared_attributes.display_window;
-    let offset = header.own_attributes.layer_position - window.position;
+    let corner = header.own_attributes.layer_position;
     let full = [window.size.width(), window.size.height()];
     let data = [header.layer_size.width(), header.layer_size.height()];
-    let [width, height] = full.map(|edge| u32::try_from(edge).unwrap_or(u32::MAX));
-    if full.iter().chain(&data).any(|&edge| edge > MAX_EDGE as usize) {
-        return Err(TextureFault::TooLarge { width, height });
-    }
-    if full.contains(&0) {
-        return Err(TextureFault::Damaged("the picture has no pixels".to_owned()));
-    }
+    let parallel = check(&meta, header)?;
 
     let channels = if has(&header.channels, "A") || full != data { 4 } else { 3 };
     let mut small = full;
     while small[0] * small[1] * channels * size_of::<f16>() > MAX_BYTES {
         small = small.map(|edge| edge.div_ceil(2));
     }
-    // Pixels of the file that fall into the same column or row.
-    let shared = move |at: usize, axis: usize| {
+    // The column or row that one of the data falls into, and its share in it.
+    let places = |axis: usize, data_begin: i32, begin: i32| -> Vec<Option<(usize, f32)>> {
         let first = |at: usize| (at * full[axis]).div_ceil(small[axis]);
-        first(at + 1) - first(at)
+        let place = |at: usize| {
+            let offset = data_begin as isize - begin as isize;
+            let at = at.checked_add_signed(offset).filter(|&at| at < full[axis])?;
+            let at = at * small[axis] / full[axis];
+            Some((at, 1.0 / (first(at + 1) - first(at)) as f32))
+        };
+        (0..data[axis]).map(place).collect()
     };
+    let columns = places(0, corner.x(), window.position.x());
+    let rows = places(1, corner.y(), window.position.y());
 
-    let image = read()
+    let reader = read()
         .no_deep_data()
         .largest_resolution_level()
         .rgba_channels(
             move |_, _| vec![f16::ZERO; small[0] * small[1] * channels],
             move |texels: &mut Vec<f16>, at: Vec2<usize>, (r, g, b, a): (f32, f32, f32, f32)| {
-                let place = |at: usize, axis: usize, offset: i32| {
-                    let at = at.checked_add_signed(offset as isize).filter(|&at| at < full[axis])?;
-                    Some(at * small[axis] / full[axis])
-                };
-                let (Some(x), Some(y)) = (place(at.x(), 0, offset.x()), place(at.y(), 1, offset.y())) else {
+                let (Some((x, width)), Some((y, height))) = (columns[at.x()], rows[at.y()]) else {
                     return;
                 };
-                let share = 1.0 / (shared(x, 0) * shared(y, 1)) as f32;
+                let share = width * height;
                 let first = (y * small[0] + x) * channels;
                 for (texel, value) in texels[first..first + channels].iter_mut().zip([r, g, b, a]) {
-                    *texel = half(texel.to_f32() + half(value).to_f32() * share);
+                    *texel = half(texel.to_f32() + bounded(value) * share);
                 }
             },
         )
         .first_valid_layer()
-        .all_attributes()
-        .from_buffered(Cursor::new(bytes))
-        .map_err(fault)?;
+        .all_attributes();
+    let reader = if parallel { reader } else { reader.non_parallel() };
+    let image = reader.from_buffered(Cursor::new(bytes)).map_err(fault)?;
     let texels = Texels::Half(image.layer_data.channel_data.pixels);
     Ok(Texture { width: small[0] as u32, height: small[1] as u32, channels, texels })
+}
+
+/// Refuses pictures that take too much memory or time, and tells whether there is memory to unpack
+/// several blocks at once.
+///
+/// All channels are unpacked, beside the colours too. The table of blocks may name one block any
+/// number of times, and one of another layer.
+fn check(meta: &MetaData, header: &Header) -> Result<bool, TextureFault> {
+    let size =
+        |size: Vec2<usize>| [size.width(), size.height()].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
+    let [width, height] = size(header.shared_attributes.display_window.size);
+    limits::check(width, height, 0)?;
+    let [width, height] = size(header.layer_size);
+    limits::check(width, height, 0)?;
+
+    let block = |header: &Header| {
+        let size = match header.blocks {
+            BlockDescription::Tiles(tiles) => tiles.tile_size,
+            BlockDescription::ScanLines => {
+                Vec2(header.layer_size.width(), header.compression.scan_lines_per_block())
+            }
+        };
+        let samples = (size.width() as u64).saturating_mul(size.height() as u64);
+        samples.saturating_mul(header.channels.bytes_per_pixel as u64)
+    };
+    let block = meta.headers.iter().map(block).max().unwrap_or(0);
+    let all = block.saturating_mul(header.chunk_count as u64);
+    if block > MAX_BLOCK_BYTES || all > MAX_UNPACKED_BYTES {
+        let [block, all] = [block, all].map(|bytes| bytes >> 20);
+        let what = format!("{width}×{height} pixels in blocks of {block} MiB, {all} MiB with all channels");
+        return Err(TextureFault::Unsupported(what));
+    }
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
+    Ok((threads + 2) * block <= MAX_PARALLEL_BYTES)
 }
 
 fn fault(error: Error) -> TextureFault {
     match error {
         Error::Io(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => TextureFault::Truncated,
-        Error::Io(e) => TextureFault::Io(e),
+        Error::Io(e) => TextureFault::Damaged(e.to_string()),
         Error::NotSupported(what) => TextureFault::Unsupported(what.into_owned()),
         Error::Invalid(what) => TextureFault::Damaged(what.into_owned()),
         Error::Aborted => TextureFault::Damaged("reading was broken off".to_owned()),
