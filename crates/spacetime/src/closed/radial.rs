@@ -125,7 +125,7 @@ impl<S: Scalar> Factors<S> {
             g = c * c + potential.at(least) * 2.0 / second;
         }
         let mut quotient = Self::quotient(potential, c, g);
-        for _ in 0..if SPREAD { 3 } else { 6 } {
+        for _ in 0..if SPREAD { 5 } else { 6 } {
             let [q0, q1, _] = quotient;
             let f1 = g * q0 - 1.0;
             let f2 = g * q1 - c * q0 * 2.0;

@@ -34,9 +34,9 @@ pub(super) const TYPICAL_ERROR: f64 = 1e-12;
 /// use kerrscope_spacetime::geodesic::{Path, Query, Tracer};
 /// use kerrscope_spacetime::observer::impact_ray;
 ///
-/// // λ = 4, η = 30 around a = 0.9, seen from i = 1 rad.
+/// // A reversed photon of λ = 4 and η = 30 around a = 0.9, seen from i = 1 rad.
 /// let (spin, inclination) = (0.9_f64, 1f64);
-/// let alpha = -4.0 / inclination.sin();
+/// let alpha = 4.0 / inclination.sin();
 /// let beta = -(30.0 - (alpha * alpha - spin * spin) * inclination.cos().powi(2)).sqrt();
 /// let ray = impact_ray(Some(spin), inclination, f64::INFINITY, [alpha, beta])?;
 /// let mut path = Path::default();

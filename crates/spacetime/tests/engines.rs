@@ -1,0 +1,201 @@
+//! The closed form and the integrator, ray by ray: two ways that share nothing but the ray's start.
+
+mod common;
+
+use common::Random;
+use kerrscope_spacetime::Level;
+use kerrscope_spacetime::closed::ClosedForm;
+use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
+use kerrscope_spacetime::metric::Kerr;
+use kerrscope_spacetime::observer::{Motion, Observer, Place, impact_ray};
+
+/// Random rays of one hole: of cameras from 1.2 r₊ to 10⁴ M, half of them looking anywhere, half towards the
+/// hole, and some from infinity.
+fn shots(random: &mut Random, spin: f64, count: usize) -> Vec<Ray> {
+    let horizon = 1.0 + (1.0 - spin * spin).sqrt();
+    let mut rays = Vec::with_capacity(count);
+    while rays.len() < count {
+        let theta = random.within(-1.0, 1.0).acos();
+        if rays.len() % 7 == 0 {
+            let impact = [random.within(-12.0, 12.0), random.within(-12.0, 12.0)];
+            rays.extend(impact_ray(Some(spin), theta, f64::INFINITY, impact));
+            continue;
+        }
+        let r = 1.2 * horizon * (1e4 / (1.2 * horizon)).powf(random.within(0.0, 1.0));
+        let place = Place { r, theta, phi: random.within(-3.0, 3.0) };
+        let observer = Observer::new(Some(spin), place, Motion::ZeroAngularMomentum).unwrap();
+        let reach = 20.0 / r.max(20.0);
+        let direction = if rays.len() % 2 == 0 {
+            let (up, turn) = (random.within(-1.0, 1.0), random.within(-3.2, 3.2));
+            let flat = f64::sqrt(1.0 - up * up);
+            [up, flat * turn.cos(), flat * turn.sin()]
+        } else {
+            [-1.0, reach * random.within(-1.0, 1.0), reach * random.within(-1.0, 1.0)]
+        };
+        let length = direction.iter().map(|c| c * c).sum::<f64>().sqrt();
+        rays.push(observer.ray(direction.map(|c| c / length)));
+    }
+    rays
+}
+
+/// How two paths differ: angle between directions; radius, azimuth and place of crossings; time.
+#[derive(Default)]
+struct Differences {
+    sky: Vec<f64>,
+    crossing: Vec<f64>,
+    time: Vec<f64>,
+}
+
+impl Differences {
+    fn see(&mut self, one: &Path, other: &Path) -> [f64; 3] {
+        let unit = |[theta, phi]: [f64; 2]| [theta.sin() * phi.cos(), theta.sin() * phi.sin(), theta.cos()];
+        let apart = |a: [f64; 3], b: [f64; 3]| (0..3).map(|i| (a[i] - b[i]).powi(2)).sum::<f64>().sqrt();
+        let sky = match (one.direction, other.direction) {
+            (Some(a), Some(b)) => {
+                // Turns count too, but next to the axis one way around is as good as the other.
+                let near_axis = a[0].sin() < 1e-3;
+                assert!(near_axis || (a[1] - b[1]).abs() < 1.0, "{a:?} {b:?}");
+                apart(unit(a), unit(b))
+            }
+            _ => 0.0,
+        };
+        let (mut crossing, mut time) = (0f64, 0f64);
+        for (a, b) in one.crossings.iter().zip(&other.crossings) {
+            let place = apart(a.position, b.position) / b.r;
+            crossing = crossing.max((a.r / b.r - 1.0).abs()).max((a.phi - b.phi).abs()).max(place);
+            time = time.max((a.elapsed - b.elapsed).abs() / b.elapsed.abs().max(b.r));
+        }
+        self.sky.extend((sky > 0.0).then_some(sky));
+        self.crossing.extend((crossing > 0.0).then_some(crossing));
+        self.time.extend((time > 0.0).then_some(time));
+        [sky, crossing, time]
+    }
+}
+
+fn median(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[values.len() / 2]
+}
+
+#[test]
+fn closed_form_and_integrator_agree() {
+    let mut random = Random::new(404);
+    let mut differences = Differences::default();
+    let query = Query { elapsed: true, ..Query::default() };
+    let (mut closed, mut integrated) = (Path::default(), Path::default());
+    let mut unlike = 0;
+    for k in 0..60 {
+        let spin = [0.0, 1.0, -1.0, 0.998].get(k).copied().unwrap_or_else(|| random.within(-1.0, 1.0));
+        let tracer = ClosedForm::new(spin, 16, 10_000);
+        let reference = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-13 }, 100_000);
+        for ray in shots(&mut random, spin, 100) {
+            tracer.trace(&ray, &query, &mut closed);
+            reference.trace(&ray, &query, &mut integrated);
+            if closed.fate != integrated.fate || closed.crossings.len() != integrated.crossings.len() {
+                // A crossing at the very end, or a ray that grazes the critical curve.
+                unlike += 1;
+                continue;
+            }
+            let found = differences.see(&closed, &integrated);
+            // Next to the critical curve both err as the inverse of the distance from it.
+            let bound = 1e-8_f64.max(300.0 * (closed.error_estimate + integrated.error_estimate));
+            assert!(
+                found.iter().all(|difference| *difference < bound),
+                "a = {spin}: {found:?} > {bound:e}\n{ray:?}\n{closed:?}\n{integrated:?}"
+            );
+        }
+    }
+    assert!(unlike <= 3, "{unlike} of 6000 rays are unlike");
+    for (what, values) in [
+        ("sky", &mut differences.sky),
+        ("crossing", &mut differences.crossing),
+        ("time", &mut differences.time),
+    ] {
+        assert!(values.len() > 2000, "{what}");
+        let median = median(values);
+        assert!(median < 1e-12, "median difference of {what}: {median:e}");
+    }
+}
+
+/// What a batch finds does not depend on what else is in it, and is what single rays find but for the
+/// roundings of vector functions.
+#[test]
+fn batches_are_single_rays() {
+    let mut random = Random::new(405);
+    for spin in [0.0, 0.3, -0.9, 0.99] {
+        let rays = shots(&mut random, spin, 700);
+        for elapsed in [false, true] {
+            let query = Query { elapsed, max_crossings: 3, ..Query::default() };
+            for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+                let tracer = ClosedForm::new(spin, 16, 10_000).with_level(level);
+                let mut all = vec![Path::default(); rays.len()];
+                tracer.trace_all(&rays, &query, &mut all);
+                let mut again = vec![Path::default(); rays.len()];
+                for (rays, paths) in rays.chunks(13).zip(again.chunks_mut(13)) {
+                    tracer.trace_all(rays, &query, paths);
+                }
+                let mut single = Path::default();
+                for ((ray, all), again) in rays.iter().zip(&all).zip(&again) {
+                    assert_eq!(format!("{all:?}"), format!("{again:?}"), "the same bits beside other rays");
+                    tracer.trace(ray, &query, &mut single);
+                    assert_eq!((all.fate, all.crossings.len()), (single.fate, single.crossings.len()));
+                    let found = Differences::default().see(all, &single);
+                    let bound = 1e-10_f64.max(100.0 * single.error_estimate);
+                    let [sky, crossing, time] = found;
+                    let close = sky < bound && crossing < bound && (!elapsed || time < 10.0 * bound);
+                    assert!(close, "{level:?} {found:?} {bound:e} {ray:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn pitfalls() {
+    let trace = |spin: f64, ray: &Ray| {
+        let query = Query { elapsed: true, windings: true, ..Query::default() };
+        let mut path = Path::default();
+        ClosedForm::new(spin, 16, 10_000).trace(ray, &query, &mut path);
+        path
+    };
+    let ray = |spin: f64, i: f64, r: f64, impact: [f64; 2]| impact_ray(Some(spin), i, r, impact).unwrap();
+    // λ = η = 0 at s = 0: straight in.
+    let path = trace(0.0, &ray(0.0, 1.0, 100.0, [0.0, 0.0]));
+    assert_eq!((path.fate, path.crossings.len(), path.windings), (Fate::Captured, 0, 0.0));
+    // Within the plane: η = 0.
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let path = trace(0.5, &ray(0.5, quarter, f64::INFINITY, [-9.0, 0.0]));
+    assert_eq!((path.fate, path.crossings.len()), (Fate::Escaped, 0));
+    assert!((path.direction.unwrap()[0] - quarter).abs() < 1e-12);
+    // On the axis: every azimuth is alike.
+    let paths: Vec<Path> = (0..8)
+        .map(|k| {
+            let (sin, cos) = (0.3 + f64::from(k)).sin_cos();
+            trace(0.9, &ray(0.9, 0.0, 50.0, [9.0 * sin, 9.0 * cos]))
+        })
+        .collect();
+    for path in &paths {
+        assert!((path.crossings[0].r / paths[0].crossings[0].r - 1.0).abs() < 1e-13);
+        assert!((path.direction.unwrap()[0] - paths[0].direction.unwrap()[0]).abs() < 1e-12);
+    }
+    // The test vector at infinity: λ = 4 of the reversed photon, η = 30, a = 0.9, i = 1 rad, β < 0.
+    let (spin, i) = (0.9_f64, 1f64);
+    let alpha = 4.0 / i.sin();
+    let beta = -(30.0 - (alpha * alpha - spin * spin) * i.cos().powi(2)).sqrt();
+    let path = trace(spin, &ray(spin, i, f64::INFINITY, [alpha, beta]));
+    assert!((path.crossings[0].r - 9.966537978).abs() < 1e-9, "{:?}", path.crossings[0]);
+    assert!((path.crossings[0].phi - 0.474082717).abs() < 1e-9, "{:?}", path.crossings[0]);
+    // Closer and closer to the critical curve of a = 0, b = √27: it turns as log(1/offset).
+    for k in 1..=12 {
+        let b = 27f64.sqrt() * (1.0 + 10f64.powi(-k));
+        let path = trace(0.0, &ray(0.0, quarter, f64::INFINITY, [0.0, b]));
+        assert_eq!(path.fate, Fate::Escaped, "offset 1e-{k}");
+        // Darwin 1959: the angle swept is ln(216(7 − 4√3)/δ) for b = √27(1 + δ).
+        let swept = (216.0 * (7.0 - 48f64.sqrt()) * 10f64.powi(k)).ln();
+        let turned = path.windings * std::f64::consts::TAU;
+        assert!(
+            (turned - swept).abs() < 4.0 * 10f64.powi(-k) * f64::from(k) + 1e-15 * 10f64.powi(k),
+            "{k}: {turned} {swept}"
+        );
+    }
+}
