@@ -11,7 +11,7 @@ use super::polar::{Cosines, FEW, FEW_REACH, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::{Class, Course, Horizons, Kind};
 use super::tracer::{PLANAR, TYPICAL_ERROR};
-use crate::geodesic::{Crossing, Fate, Path, Query, Ray};
+use crate::geodesic::{Crossing, Fate, Path, Query, Ray, Side};
 use crate::lanes::{Lanes, OnLanes};
 use crate::metric::{Inverted, Kerr};
 use crate::scalar::Scalar;
@@ -35,6 +35,11 @@ pub struct Shared {
     pub plain: Nodes,
     /// The Fourier series' cosines.
     pub cosines: Cosines<FEW>,
+}
+
+/// Whether a ray can be traced in closed form.
+pub fn suits(ray: &Ray) -> bool {
+    ray.side == Side::Reversed && ray.energy > 0.0
 }
 
 /// A ray ready to be followed among others of its kind.
@@ -105,7 +110,7 @@ fn run<L: Simd>(
             || prepare(simd, shared, ray),
         );
         for lane in 0..count {
-            if prepared.careful[lane] > 0.0 {
+            if prepared.careful[lane] > 0.0 || !suits(&rays[first + lane]) {
                 rest(first + lane);
                 continue;
             }

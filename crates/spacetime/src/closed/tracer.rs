@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use super::batch::{Batch, Shared};
+use super::batch::{Batch, Shared, suits};
 use super::kernel::{self, Meeting, Radial, Start, Tables};
 use super::photon::Photon;
 use super::polar::{Cosines, FEW, FEW_REACH, MANY, frequency, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::{Class, Kind};
 use super::vortical::Vortex;
-use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
+use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
 use crate::kerr::horizons;
 use crate::lanes::Level;
 use crate::metric::{Inverted, Kerr, Metric};
@@ -72,10 +72,9 @@ impl ClosedForm {
         Self { level, ..self }
     }
 
-    /// Whether a ray can be traced in closed form.
-    fn suits(ray: &Ray, query: &Query) -> bool {
-        let equatorial = query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt();
-        equatorial && query.points == 0 && ray.side == Side::Reversed && ray.energy > 0.0
+    /// Whether what is asked can be found in closed form.
+    fn answers(query: &Query) -> bool {
+        query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt() && query.points == 0
     }
 
     fn follow<const PLAIN: bool, const TIMED: bool, const SPREAD: bool>(
@@ -123,7 +122,7 @@ impl ClosedForm {
 
 impl Tracer for ClosedForm {
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
-        if !Self::suits(ray, query) {
+        if !Self::answers(query) || !suits(ray) {
             self.fallback.trace(ray, query, path);
             return;
         }
@@ -149,8 +148,7 @@ impl Tracer for ClosedForm {
     }
 
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
-        let suits = rays.iter().all(|ray| Self::suits(ray, query));
-        if !suits || query.windings {
+        if !Self::answers(query) || query.windings {
             for (ray, path) in rays.iter().zip(paths) {
                 self.trace(ray, query, path);
             }
