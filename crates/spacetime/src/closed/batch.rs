@@ -163,12 +163,12 @@ fn prepare<'a, L: Simd>(simd: L, shared: &Shared, ray: impl Fn(usize) -> &'a Ray
     let (zero, one) = (energy.constant(0.0), energy.constant(1.0));
     // Everything must hold; NaN holds nothing.
     let mut fine = Lanes::select(zero.less(energy), one, zero);
-    fine = fine * Lanes::select(zero.constant(PLANAR).less(photon.eta), one, zero);
+    fine *= Lanes::select(zero.constant(PLANAR).less(photon.eta), one, zero);
     let nome = size_of_nome(&photon);
-    fine = fine * Lanes::select(nome.less(zero.constant(FEW_REACH)), one, zero);
+    fine *= Lanes::select(nome.less(zero.constant(FEW_REACH)), one, zero);
     // The axis, and rays that graze the critical curve by less than any digit.
-    fine = fine * Lanes::select((photon.mu * photon.mu).less(one), one, zero);
-    fine = fine * Lanes::select(class.sensitivity.less(zero.constant(1e12)), one, zero);
+    fine *= Lanes::select((photon.mu * photon.mu).less(one), one, zero);
+    fine *= Lanes::select(class.sensitivity.less(zero.constant(1e12)), one, zero);
     let Course { inwards, side, shape, lead, end } = class.course;
     let Photon { lambda, eta, u, u_rate, mu, mu_rate, .. } = photon;
     // From the Kerr–Schild azimuth of n to that of Boyer and Lindquist, atan2(s, r) + tw before.

@@ -178,7 +178,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
         let mut power = q;
         let term = std::array::from_fn::<S, N, _>(|_| {
             let term = power / (power * power + 1.0) * 2.0;
-            power = power * q;
+            power *= q;
             term
         });
         let mut n = 0.0;

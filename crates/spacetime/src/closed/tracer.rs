@@ -142,7 +142,7 @@ impl Tracer for ClosedForm {
             (Kind::Spread, true) => self.follow::<false, true, true>(&start, escapes, count, path),
         }
         if query.windings {
-            path.windings = windings(&metric, ray.energy, &ray.start);
+            path.windings = windings(metric, ray.energy, &ray.start);
         }
         path.error_estimate = TYPICAL_ERROR * class.sensitivity;
     }
@@ -165,7 +165,7 @@ impl Tracer for ClosedForm {
 /// How often light goes round a hole from a place and momentum on to its end, in the spacetime in which it
 /// is followed: the periods of its motion in θ, ωτ/2π. Without spin it is the angle swept over 2π. NaN
 /// where the motion in θ does not cross the plane (η < 0), and where the energy is not positive.
-pub(crate) fn windings(metric: &Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
+pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
     if !(energy > 0.0) {
         return f64::NAN;
     }

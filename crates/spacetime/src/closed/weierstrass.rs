@@ -36,7 +36,7 @@ pub fn inverse_radius<S: Scalar>(potential: &Potential<S>, u0: S, inwards: S, ta
     let mut slope = series[0] * 14.0;
     for (k, &coefficient) in series.iter().enumerate().skip(1) {
         p = p.mul_add(z2, coefficient);
-        slope = slope.mul_add(z2, coefficient * f64::from(14 - 2 * k as i32));
+        slope = slope.mul_add(z2, coefficient * (14.0 - 2.0 * k as f64));
     }
     p = p.mul_add(z2, inverse2);
     slope = slope.mul_add(z, inverse2 * inverse * -2.0);

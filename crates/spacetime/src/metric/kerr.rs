@@ -274,7 +274,7 @@ impl Metric for Kerr {
     }
 
     fn windings(&self, energy: f64, start: &Inverted<f64>) -> f64 {
-        crate::closed::windings(self, energy, start)
+        crate::closed::windings(*self, energy, start)
     }
 
     #[inline(always)]
