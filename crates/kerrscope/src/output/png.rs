@@ -57,7 +57,7 @@ pub fn write(path: &Path, picture: &Picture, depth: Depth, provenance: &Provenan
 /// When that place fails.
 ///
 /// # Panics
-/// As [`write`].
+/// As [`write()`].
 pub fn encode(to: impl Write, picture: &Picture, depth: Depth, provenance: &Provenance) -> io::Result<()> {
     let Picture { width, height, pixels } = picture;
     let area = u64::from(*width) * u64::from(*height);

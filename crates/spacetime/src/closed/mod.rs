@@ -1,9 +1,9 @@
 //! Rays around a Kerr hole in closed form.
 //!
 //! The equations of motion separate in Mino time τ. Motion in θ is a pendulum's, known by the Fourier series of
-//! Jacobi's functions ([`polar`]); the radius at a given τ is a rational function of Weierstrass's ℘
-//! ([`weierstrass`]); azimuth and time along the radial motion are regularised integrals, done by
-//! Gauss–Legendre quadrature in a variable that is smooth up to the critical curve ([`radial`]).
+//! Jacobi's functions (`polar`); the radius at a given τ is a rational function of Weierstrass's ℘
+//! (`weierstrass`); azimuth and time along the radial motion are regularised integrals, done by
+//! Gauss–Legendre quadrature in a variable that is smooth up to the critical curve (`radial`).
 //!
 //! This is independent of the integrator but for the constants of a ray, and each tests the other.
 //!
