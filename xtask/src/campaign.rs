@@ -15,7 +15,8 @@ pub fn run(root: &Path, name: &str) -> Result<(), String> {
     let start = Instant::now();
     let (passed, body) = match name {
         "shadow" => shadow()?,
-        _ => return Err(format!("no campaign is called {name:?}; there is: shadow")),
+        "fuzz" => super::fuzz::campaign(root)?,
+        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, fuzz")),
     };
     let date = OffsetDateTime::now_utc().date();
     let verdict = if passed { "passed" } else { "FAILED" };
