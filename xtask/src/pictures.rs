@@ -3,17 +3,20 @@
 use super::cargo;
 use std::path::Path;
 
-/// Scene files (none: the built-in scene) and the pictures made of them.
-const PICTURES: [(Option<&str>, &str); 3] = [
-    (None, "scenes/built-in.png"),
-    (Some("scenes/thesis-4.6.toml"), "scenes/thesis-4.6.png"),
-    (Some("scenes/thesis-4.8.toml"), "scenes/thesis-4.8.png"),
+/// Scene files (none: the built-in scene), what is set otherwise, and the pictures made of them.
+const PICTURES: [(Option<&str>, &[&str], &str); 4] = [
+    (None, &[], "scenes/built-in.png"),
+    // Half as large, so that it is no large file.
+    (Some("scenes/thesis-4.5.toml"), &["render.width=960", "render.height=540"], "scenes/thesis-4.5.png"),
+    (Some("scenes/thesis-4.6.toml"), &[], "scenes/thesis-4.6.png"),
+    (Some("scenes/thesis-4.8.toml"), &[], "scenes/thesis-4.8.png"),
 ];
 
 /// Draws them all again.
 pub fn draw(_root: &Path) -> Result<(), String> {
-    for (scene, picture) in PICTURES {
+    for (scene, set, picture) in PICTURES {
         let mut arguments = vec!["run", "--release", "--locked", "--", "render", "-o", picture];
+        arguments.extend(set.iter().flat_map(|set| ["--set", set]));
         arguments.extend(scene);
         cargo(&arguments, &[])?;
     }

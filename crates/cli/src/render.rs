@@ -21,6 +21,7 @@ use tracing::info;
     kerrscope render scenes/thesis-4.8.toml -o hole.png\n  \
     kerrscope render --set spacetime.spin=0.5 --set render.width=1920 --set render.height=1080\n  \
     kerrscope render -o hole.png -o hole.exr --set 'render.layers=[\"g\", \"r\"]'\n  \
+    kerrscope render --layer g --order 1 --colormap inferno -o shift.png\n  \
     kerrscope render --set render.samples=1024 --resume   # again after an interruption")]
 pub struct Arguments {
     #[command(flatten)]
@@ -29,6 +30,17 @@ pub struct Arguments {
     /// .png here
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
+    /// Show a data layer in false colours instead of the light (as --set camera.display.layer=…): fate,
+    /// crossings, windings, steps, error, r, phi, t, g, sky_theta, sky_phi or depth
+    #[arg(long, value_name = "LAYER")]
+    layer: Option<String>,
+    /// Image order of the layer: 0, 1 or 2 (as --set camera.display.order=…)
+    #[arg(long, value_name = "N")]
+    order: Option<String>,
+    /// Colours of the layer (as --set camera.display.colormap=…): viridis, magma, inferno, plasma,
+    /// cividis, grey or hue
+    #[arg(long, value_name = "NAME")]
+    colormap: Option<String>,
     /// Threads to use; without it, one for each processor
     #[arg(long, value_name = "N")]
     threads: Option<NonZeroUsize>,
@@ -61,8 +73,15 @@ struct Output {
 
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
-    let engine = arguments.engine.iter().map(|engine| format!("render.engine={engine}"));
-    let scene = arguments.source.load(engine)?;
+    let overrides = [
+        ("render.engine", &arguments.engine),
+        ("camera.display.layer", &arguments.layer),
+        ("camera.display.order", &arguments.order),
+        ("camera.display.colormap", &arguments.colormap),
+    ];
+    let overrides =
+        overrides.into_iter().filter_map(|(key, value)| Some(format!("{key}={}", value.as_ref()?)));
+    let scene = arguments.source.load(overrides)?;
     let outputs = outputs(arguments)?;
     let stage = Stage::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
     info!(rays = stage.rays(), "scene ready");

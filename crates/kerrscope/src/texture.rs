@@ -24,6 +24,7 @@ mod error;
 mod exr;
 mod jpeg;
 mod limits;
+mod sphere;
 mod tiff;
 mod webp;
 
@@ -36,6 +37,7 @@ use half::f16;
 use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 
 pub use error::{TextureError, TextureFault};
+pub use sphere::Sphere;
 
 use crate::display::srgb;
 use crate::light::{Light, Sheet};
@@ -171,48 +173,12 @@ impl Texture {
         self.height
     }
 
-    /// The picture made smaller by 2^`level` in both directions, each pixel the mean of those it
-    /// covers; at least 1×1.
-    pub fn reduced(&self, level: u32) -> Self {
-        let [width, height] = [self.width, self.height].map(|n| n.checked_shr(level).unwrap_or(0).max(1));
-        let channels = if matches!(self.channels, 2 | 4) { 4 } else { 3 };
-        let columns: Vec<_> = (0..width).map(|x| shares(x, self.width, width)).collect();
-        let mut texels = Vec::with_capacity(width as usize * height as usize * channels);
-        for y in 0..height {
-            let mut row = vec![[0.0; 4]; width as usize];
-            for &(y, share) in &shares(y, self.height, height) {
-                for (sum, columns) in row.iter_mut().zip(&columns) {
-                    for &(x, part) in columns {
-                        let texel = self.texel(x, y);
-                        *sum = std::array::from_fn(|k| sum[k] + share * part * texel[k]);
-                    }
-                }
-            }
-            texels.extend(row.iter().flat_map(|texel| texel[..channels].iter().map(|&c| half(c as f32))));
-        }
-        Self { width, height, channels, texels: Texels::Half(texels) }
-    }
-
     /// Light (scaled by alpha) and alpha at a place, interpolated between the four
     /// nearest pixels. Beyond the edges the outermost pixels go on; with `wrap_u` the
     /// left edge continues the right one. Finite for any `u` and `v`.
     pub fn sample(&self, u: f64, v: f64, wrap_u: bool) -> Sheet {
         let (upper, lower, f) = clamped(v, self.height);
         sheet(mix(self.row(upper, u, wrap_u), self.row(lower, u, wrap_u), f))
-    }
-
-    /// As [`Texture::sample`] for a picture that covers a sphere, poles at the top and
-    /// bottom edges: what lies beyond a pole is the same row, half a turn on, so that
-    /// there is no seam across the poles either.
-    pub fn sample_sphere(&self, u: f64, v: f64) -> Sheet {
-        let y = finite(v).clamp(0.0, 1.0) * f64::from(self.height) - 0.5;
-        let (upper, f) = (y.floor(), y - y.floor());
-        let last = f64::from(self.height - 1);
-        let row = |y: f64| {
-            let beyond = y < 0.0 || y > last;
-            self.row(y.clamp(0.0, last) as usize, if beyond { u + 0.5 } else { u }, true)
-        };
-        sheet(mix(row(upper), row(upper + 1.0), f))
     }
 
     fn row(&self, y: usize, u: f64, wrap: bool) -> Texel {
@@ -224,15 +190,9 @@ impl Texture {
         let at = (y * self.width as usize + x) * self.channels;
         let codes = at..at + self.channels;
         match &self.texels {
-            Texels::Eight(all) => texel(&all[codes], &LINEAR_8),
-            Texels::Sixteen(all) => texel(&all[codes], &LINEAR_16),
-            Texels::Half(all) => {
-                let mut texel = [0.0, 0.0, 0.0, 1.0];
-                for (to, from) in texel.iter_mut().zip(&all[codes]) {
-                    *to = from.to_f64();
-                }
-                texel
-            }
+            Texels::Eight(all) => decoded(&all[codes], &LINEAR_8),
+            Texels::Sixteen(all) => decoded(&all[codes], &LINEAR_16),
+            Texels::Half(all) => arranged(&all[codes], f16::to_f64, f16::to_f64),
         }
     }
 }
@@ -248,14 +208,20 @@ impl std::fmt::Debug for Texture {
 }
 
 /// Decodes one pixel. `linear` has one entry a code, so its length tells the range.
-fn texel<C: Copy + Into<u32>>(codes: &[C], linear: &[f32]) -> Texel {
+fn decoded<C: Copy + Into<u32>>(codes: &[C], linear: &[f32]) -> Texel {
     let light = |code: C| f64::from(linear[code.into() as usize]);
     let alpha = |code: C| f64::from(code.into()) / (linear.len() - 1) as f64;
-    match *codes {
+    let [r, g, b, a] = arranged(codes, light, alpha);
+    [r * a, g * a, b * a, a]
+}
+
+/// The channels of one pixel as red, green, blue and alpha.
+fn arranged<C: Copy>(channels: &[C], light: impl Fn(C) -> f64, alpha: impl Fn(C) -> f64) -> Texel {
+    match *channels {
         [y] => [light(y), light(y), light(y), 1.0],
-        [y, a] => [light(y), light(y), light(y), 1.0].map(|c| c * alpha(a)),
+        [y, a] => [light(y), light(y), light(y), alpha(a)],
         [r, g, b] => [light(r), light(g), light(b), 1.0],
-        [r, g, b, a] => [light(r), light(g), light(b), 1.0].map(|c| c * alpha(a)),
+        [r, g, b, a] => [light(r), light(g), light(b), alpha(a)],
         _ => [0.0; 4],
     }
 }
@@ -268,19 +234,6 @@ fn half(x: f32) -> f16 {
 /// Light or alpha within what can be kept.
 fn bounded(x: f32) -> f32 {
     if x.is_nan() { 0.0 } else { x.clamp(0.0, f16::MAX.to_f32_const()) }
-}
-
-/// The pixels of a row of `from` that the pixel `at` of a row of `to` covers, with their shares in
-/// it.
-fn shares(at: u32, from: u32, to: u32) -> Vec<(usize, f64)> {
-    let ratio = f64::from(from) / f64::from(to);
-    let (begin, end) = (f64::from(at) * ratio, f64::from(at + 1) * ratio);
-    (begin as u32..(end.ceil() as u32).min(from))
-        .map(|x| {
-            let covered = end.min(f64::from(x) + 1.0) - begin.max(f64::from(x));
-            (x as usize, covered.max(0.0) / ratio)
-        })
-        .collect()
 }
 
 fn finite(x: f64) -> f64 {

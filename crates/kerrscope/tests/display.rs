@@ -6,6 +6,7 @@ use proptest::prelude::*;
 
 const NEUTRAL: Display = Display { exposure: 0.0, tone: Tone::Neutral };
 const NONE: Display = Display { exposure: 0.0, tone: Tone::None };
+const TONES: [Tone; 3] = [Tone::Neutral, Tone::Filmic, Tone::None];
 
 #[test]
 fn srgb_agrees_with_reference_values() {
@@ -71,14 +72,42 @@ fn neutral_has_a_continuous_slope_at_its_knee() {
 
 #[test]
 fn very_bright_colours_turn_white() {
-    let [r, g, b] = NEUTRAL.encode(Light::new([1e4, 1e3, 10.0]));
-    assert!(r > 0.999 && g > 0.999 && b > 0.999, "{r} {g} {b}");
+    for tone in [Tone::Neutral, Tone::Filmic] {
+        let [r, g, b] = Display { exposure: 0.0, tone }.encode(Light::new([1e4, 1e3, 10.0]));
+        assert!(r > 0.999 && g > 0.999 && b > 0.999, "{r} {g} {b}");
+    }
+}
+
+#[test]
+fn filmic_agrees_with_its_formula_and_its_source() {
+    // By hand: f(1/2) = 0.6425 / 1.0425, f(1) = 2.54 / 3.16, f(2) = 10.1 / 11.04. Narkowicz: "1 on
+    // input maps to ~0.8 on output".
+    let at = |x: f64| Tone::Filmic.apply([x, 0.0, 0.0])[0];
+    for (x, by_hand) in [(0.5, 0.616306954436), (1.0, 0.803797468354), (2.0, 0.914855072464)] {
+        assert!((at(x) - by_hand).abs() < 1e-11, "{x} {}", at(x));
+    }
+    // Each component is on its own.
+    assert_eq!(Tone::Filmic.apply([2.0, 0.5, 0.0]), [at(2.0), at(0.5), 0.0]);
+}
+
+#[test]
+fn filmic_begins_at_black_and_reaches_white() {
+    let at = |x: f64| Tone::Filmic.apply([x; 3])[0];
+    assert_eq!(at(0.0), 0.0);
+    // The slope at black is 0.03 / 0.14.
+    assert!((at(1e-9) / 1e-9 - 3.0 / 14.0).abs() < 1e-7);
+    // The root of 0.08 x² − 0.56 x − 0.14.
+    let white = (0.56 + 0.3584_f64.sqrt()) / 0.16;
+    assert!(at(white - 1e-3) < 1.0 && at(white) > 1.0 - 1e-12, "{}", at(white));
+    for beyond in [white + 1e-9, 8.0, 1e30, f64::MAX] {
+        assert_eq!(at(beyond), 1.0, "{beyond}");
+    }
 }
 
 #[test]
 fn anything_gives_display_values() {
     let odd = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 1e-320, 1.0, f64::MAX];
-    for tone in [Tone::Neutral, Tone::None] {
+    for tone in TONES {
         for exposure in [0.0, 1e9, -1e9, f64::NAN, f64::INFINITY] {
             for r in odd {
                 for g in odd {
@@ -107,7 +136,7 @@ proptest! {
     fn more_light_is_never_darker(
         r in 0.0..1.0, g in 0.0..1.0, b in 0.0..1.0, x in 0.0..50.0, more in 0.0..1.0
     ) {
-        for tone in [Tone::Neutral, Tone::None] {
+        for tone in TONES {
             let display = Display { exposure: 0.0, tone };
             let light = Light::new([r, g, b]);
             let (dim, bright) = (display.encode(light * x), display.encode(light * (x + more)));
@@ -124,10 +153,21 @@ proptest! {
     }
 
     #[test]
-    fn neutral_is_continuous(r in 0.0..5.0, g in 0.0..5.0, b in 0.0..5.0) {
-        let (near, far) = (Tone::Neutral.apply([r, g, b]), Tone::Neutral.apply([r + 1e-9, g, b]));
-        for k in 0..3 {
-            prop_assert!((near[k] - far[k]).abs() < 2e-9);
+    fn tone_curves_are_continuous(r in 0.0..10.0, g in 0.0..10.0, b in 0.0..10.0) {
+        for tone in TONES {
+            let (near, far) = (tone.apply([r, g, b]), tone.apply([r + 1e-9, g, b]));
+            for k in 0..3 {
+                // No slope is above 2; that of the filmic curve is largest, 1.80, at 0.12.
+                prop_assert!((near[k] - far[k]).abs() < 2e-9, "{tone:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn grey_stays_grey(x in 0.0..20.0) {
+        for tone in TONES {
+            let [r, g, b] = tone.apply([x; 3]);
+            prop_assert!(r == g && g == b, "{tone:?} {r} {g} {b}");
         }
     }
 

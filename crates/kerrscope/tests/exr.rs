@@ -3,7 +3,6 @@
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::sync::atomic::AtomicBool;
 
 use kerrscope::output::{Format, Provenance};
 use kerrscope::render::{Film, Layer, Stage, Watch, draw};
@@ -17,8 +16,7 @@ const SCENE: &str = "spacetime.spin = 0.95\nobserver = { distance = 12, inclinat
 fn drawn() -> (Scene, Film) {
     let scene = Scene::from_toml(SCENE, Path::new("")).unwrap();
     let stage = Stage::new(&scene).unwrap();
-    let watch = Watch { cancelled: &AtomicBool::new(false), progress: &|_| {}, checkpoint: None };
-    let film = draw(&stage, &watch).unwrap();
+    let film = draw(&stage, &Watch::default()).unwrap();
     (scene, film)
 }
 

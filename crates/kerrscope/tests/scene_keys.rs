@@ -4,7 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 
 use kerrscope::disk::Mapping;
-use kerrscope::display::Tone;
+use kerrscope::display::{Colormap, Depth, Display, FalseColor, Tone};
+use kerrscope::render::{Channel, Layer};
 use kerrscope::scene::{self, Engine, Method, Scene, SceneFile};
 use kerrscope::sky::{Frame, Orientation};
 use kerrscope::spacetime::observer;
@@ -35,7 +36,7 @@ fn the_built_in_scene() {
     assert_eq!(disk.surface, scene::Surface::Ring { seed: 1 });
     assert_eq!((built_in.render.width, built_in.render.height), (960, 540));
     assert_eq!((built_in.render.samples, built_in.render.max_steps), (4, 10_000));
-    assert_eq!(built_in.display.bits, 8);
+    assert_eq!((built_in.display.depth, built_in.display.layer), (Depth::Eight, None));
 }
 
 /// Each key in each of its forms, and what becomes of it.
@@ -121,10 +122,20 @@ fn every_key() {
         assert_eq!(disk.color, [1.0; 3]);
     }
 
-    let s = read("sky = { kind = \"black\", brightness = 0 }");
-    assert_eq!(s.sky, scene::Sky { picture: scene::SkyPicture::Black, brightness: 0.0 });
-    let s = read("sky = { kind = \"uniform\", color = [1, 1, 1] }");
-    assert_eq!(s.sky.picture, scene::SkyPicture::Uniform { color: [1.0; 3] });
+    let s = read("sky = { kind = \"black\" }");
+    assert_eq!(s.sky.picture, scene::SkyPicture::Black);
+    let s = read("sky = { kind = \"uniform\", color = [1, 1, 1], brightness = 0 }");
+    assert_eq!(
+        s.sky,
+        scene::Sky { picture: scene::SkyPicture::Uniform { color: [1.0; 3] }, brightness: 0.0 }
+    );
+    for (kind, picture) in [
+        ("uniform", scene::SkyPicture::Uniform { color: [0.2, 0.34, 0.55] }),
+        ("grid", scene::SkyPicture::Grid { color: [0.2, 0.34, 0.55], spacing: PI / 12.0 }),
+    ] {
+        let s = read(&format!("sky.kind = \"{kind}\""));
+        assert_eq!(s.sky, scene::Sky { picture, brightness: 1.0 });
+    }
     for spacing in ["1", "1.2", "11.25", "22.5", "90"] {
         let s = read(&format!("[sky]\nkind = \"grid\"\nspacing = {spacing}"));
         assert!(matches!(s.sky.picture, scene::SkyPicture::Grid { .. }));
@@ -148,7 +159,7 @@ fn every_key() {
     let s = read(
         "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\
          engine = \"integrator\"\nmethod = \"rk4\"\ntolerance = 1e-14\nstep = 1\nmax_steps = 1000000\n\
-         max_crossings = 64\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
+         max_crossings = 64\nlayers = [\"g\", \"fate\", \"g\"]\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
     );
     assert_eq!(
         s.render,
@@ -164,12 +175,24 @@ fn every_key() {
             step: 1.0,
             max_steps: 1_000_000,
             max_crossings: 64,
+            layers: vec![Layer::Fate, Layer::G],
         }
     );
-    assert_eq!(s.display, scene::Display { exposure: -2.0, tone: Tone::None, bits: 16 });
+    let view = Display { exposure: -2.0, tone: Tone::None };
+    assert_eq!(s.display, scene::Display { view, layer: None, depth: Depth::Sixteen });
     let s = read("render.method = \"rk4\"");
     assert_eq!((s.render.step, s.file().render.step), (0.1, Some(0.1)));
     assert_eq!(read("render.method = \"tsit5\"").render.method, Method::Tsit5);
+    assert_eq!(read("camera.display.tone = \"filmic\"").display.view.tone, Tone::Filmic);
+
+    // A layer that is shown is computed.
+    let s = read(
+        "camera.display = { layer = \"t\", order = 2, colormap = \"magma\", range = [1, 9], legend = false }",
+    );
+    let channel = Channel { layer: Layer::T, order: Some(2) };
+    let shown =
+        FalseColor { channel, colormap: Some(Colormap::Magma), range: Some([1.0, 9.0]), legend: false };
+    assert_eq!((s.display.layer, s.render.layers), (Some(shown), vec![Layer::T]));
 }
 
 #[test]

@@ -37,7 +37,7 @@ fn values_and_bare_words() {
     assert_eq!(scene.observer.motion, Motion::Fall);
     assert_eq!(scene.render.width, 400);
     assert_eq!(scene.screen.look_at, Some([0.0, 0.0, 1.0]));
-    assert_eq!(scene.display.exposure, -1.0);
+    assert_eq!(scene.display.view.exposure, -1.0);
     assert!(!scene.render.jitter);
     let flat = load(&["spacetime.name=minkowski", "disk.model=none"]).unwrap();
     assert_eq!(flat.spacetime, Spacetime::Minkowski);

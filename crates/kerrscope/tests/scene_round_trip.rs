@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use kerrscope::disk::Mapping;
-use kerrscope::display::Tone;
+use kerrscope::display::{Colormap, Tone};
+use kerrscope::render::Layer;
 use kerrscope::scene::file::{
     Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Observer, RelativeTo,
     Render, Screen, ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
@@ -96,17 +97,31 @@ fn disks() -> impl Strategy<Value = Disk> {
 }
 
 fn skies() -> impl Strategy<Value = Sky> {
-    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
     let frames = sample::select(vec![Frame::Galactic, Frame::Equatorial]);
-    let drawn = vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial];
-    let stands = (frames, sample::select(drawn), number(-1e6, 1e6), vector(-1e6, 1e6));
-    (sample::select(kinds), vector(0.0, 1.0), number(0.0, 1e12), 1..=90_u32, stands).prop_map(
-        |(kind, color, brightness, lines, (frame, image_frame, longitude, rotation))| {
-            let image = (kind == SkyKind::Panorama).then(|| "src/../Cargo.toml".to_owned());
-            let spacing = 90.0 / f64::from(lines);
-            Sky { kind, color, brightness, spacing, image, frame, image_frame, longitude, rotation }
-        },
-    )
+    let drawn = sample::select(vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial]);
+    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
+    let all = (
+        sample::select(kinds),
+        option::of(vector(0.0, 1.0)),
+        option::of(number(0.0, 1e12)),
+        option::of((1..=90_u32).prop_map(|lines| 90.0 / f64::from(lines))),
+        (option::of(frames), option::of(drawn), option::of(number(-1e6, 1e6)), option::of(vector(-1e6, 1e6))),
+    );
+    all.prop_map(|(kind, color, brightness, spacing, (frame, image_frame, longitude, rotation))| {
+        let plain = Sky { kind, brightness, ..Sky::default() };
+        let turned = Sky { longitude, rotation, ..plain.clone() };
+        match kind {
+            SkyKind::Black => plain,
+            SkyKind::Uniform => Sky { color, ..plain },
+            SkyKind::Grid => Sky { color, spacing, ..plain },
+            SkyKind::Stars => Sky { frame, ..turned },
+            SkyKind::Panorama => {
+                let scene = image_frame.is_none_or(|drawn| drawn == ImageFrame::Scene);
+                let frame = frame.filter(|_| !scene);
+                Sky { image: Some("src/../Cargo.toml".to_owned()), frame, image_frame, ..turned }
+            }
+        }
+    })
 }
 
 fn renders() -> impl Strategy<Value = Render> {
@@ -119,8 +134,9 @@ fn renders() -> impl Strategy<Value = Render> {
         number(1e-14, 1e-2),
         option::of(number(1e-9, 1e3)),
         (1..=1_000_000_u32, 1..=64_u32),
+        sample::subsequence(Layer::ALL.to_vec(), 0..=Layer::ALL.len()),
     )
-        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most)| Render {
+        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most, layers)| Render {
             width: size.0,
             height: size.1,
             samples: size.2,
@@ -132,13 +148,24 @@ fn renders() -> impl Strategy<Value = Render> {
             step: step.filter(|_| method == Method::Rk4),
             max_steps: most.0,
             max_crossings: most.1,
+            layers,
         })
 }
 
 fn cameras() -> impl Strategy<Value = Camera> {
-    let tones = sample::select(vec![Tone::Neutral, Tone::None]);
-    (number(-30.0, 30.0), tones, sample::select(vec![8, 16]))
-        .prop_map(|(exposure, tone, bits)| Camera { display: Display { exposure, tone, bits } })
+    let tones = sample::select(vec![Tone::Neutral, Tone::Filmic, Tone::None]);
+    let maps = sample::select(vec![Colormap::Viridis, Colormap::Hue]);
+    let shown = (sample::select(Layer::ALL.to_vec()), option::of(0..=2_u8), option::of(maps), any::<bool>());
+    (number(-30.0, 30.0), tones, sample::select(vec![8, 16]), option::of(shown)).prop_map(
+        |(exposure, tone, bits, shown)| {
+            let plain = Display { exposure, tone, bits, ..Display::default() };
+            let display = shown.map_or(plain.clone(), |(layer, order, colormap, legend)| {
+                let order = order.filter(|_| layer.has_orders());
+                Display { layer: Some(layer), order, colormap, legend: Some(legend), ..plain }
+            });
+            Camera { display }
+        },
+    )
 }
 
 fn scene_files() -> impl Strategy<Value = SceneFile> {

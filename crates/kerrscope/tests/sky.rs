@@ -11,17 +11,17 @@ const WIDTH: u32 = 72;
 const HEIGHT: u32 = 36;
 
 /// A panorama that is black but for one white pixel.
-fn star(x: u32, y: u32, longitude: f64) -> Panorama {
+fn star(x: u32, y: u32, longitude: f64, brightness: f64) -> Panorama {
     let mut image = image::GrayImage::new(WIDTH, HEIGHT);
     image.put_pixel(x, y, image::Luma([255]));
-    panorama(&image, longitude)
+    panorama(&image, longitude, brightness)
 }
 
-fn panorama(image: &image::GrayImage, longitude: f64) -> Panorama {
+fn panorama(image: &image::GrayImage, longitude: f64, brightness: f64) -> Panorama {
     let mut file = Vec::new();
     let mut to = std::io::Cursor::new(&mut file);
     image.write_to(&mut to, image::ImageFormat::Png).unwrap();
-    Panorama::new(Texture::decode(&file).unwrap(), 1e-3, Orientation::upright(longitude), 1.0)
+    Panorama::new(Texture::decode(&file).unwrap(), Orientation::upright(longitude), brightness)
 }
 
 /// Where the pixel is, from the direction of sight of a viewer at the centre who faces
@@ -43,15 +43,15 @@ fn direction_of_pixel(x: u32, y: u32, longitude: f64) -> (f64, f64) {
 fn a_star_in_a_panorama_is_where_a_viewer_inside_sees_it() {
     for (x, y) in [(36, 17), (0, 3), (71, 30), (50, 10), (20, 25)] {
         for longitude in [0.0, 1.0, -2.5, 9.0] {
-            let sky = Sky::Panorama(star(x, y, longitude));
+            let sky = Sky::Panorama(star(x, y, longitude, 1.0));
             let (theta, phi) = direction_of_pixel(x, y, longitude);
             for turns in [-2.0, 0.0, 5.0] {
-                let light = sky.radiance(theta, phi + turns * TAU);
+                let light = sky.radiance(theta, phi + turns * TAU, 0.0);
                 assert!((light.rgb[0] - 1.0).abs() < 1e-9, "{x} {y} {longitude} {light:?}");
             }
             // Two pixels (10°) away there is nothing.
             for (dt, dp) in [(0.18, 0.0), (-0.18, 0.0), (0.0, 0.18), (0.0, -0.18)] {
-                assert_eq!(sky.radiance(theta + dt, phi + dp), Light::DARK);
+                assert_eq!(sky.radiance(theta + dt, phi + dp, 0.0), Light::DARK);
             }
         }
     }
@@ -59,13 +59,13 @@ fn a_star_in_a_panorama_is_where_a_viewer_inside_sees_it() {
 
 #[test]
 fn a_panorama_joins_across_its_left_and_right_edges() {
-    let sky = star(0, 18, 0.0);
+    let sky = star(0, 18, 0.0, 1.0);
     let theta = 18.5 / f64::from(HEIGHT) * PI;
     let pixel = TAU / f64::from(WIDTH);
     // The left edge is at azimuth +π. The star lies half a pixel to its right, and shines
     // half as bright on the edge itself, from both sides.
     for (phi, light) in [(PI - 0.5 * pixel, 1.0), (PI, 0.5), (-PI, 0.5), (-PI + 0.25 * pixel, 0.25)] {
-        assert!((sky.radiance(theta, phi).rgb[0] - light).abs() < 1e-9, "{phi}");
+        assert!((sky.radiance(theta, phi, 0.0).rgb[0] - light).abs() < 1e-9, "{phi}");
     }
 }
 
@@ -73,11 +73,11 @@ fn a_panorama_joins_across_its_left_and_right_edges() {
 fn a_panorama_has_no_seam_across_the_poles() {
     let image =
         image::GrayImage::from_fn(WIDTH, HEIGHT, |x, y| image::Luma([(x * 53 % 256) as u8 ^ (y * 29) as u8]));
-    let sky = panorama(&image, 0.3);
+    let sky = panorama(&image, 0.3, 1.0);
     for pole in [0.0, PI] {
         for phi in [0.0, 0.7, 2.0, 4.4] {
             let theta = (pole - 1e-9_f64).abs();
-            let (here, there) = (sky.radiance(theta, phi), sky.radiance(theta, phi + PI));
+            let (here, there) = (sky.radiance(theta, phi, 0.0), sky.radiance(theta, phi + PI, 0.0));
             assert!((here.rgb[0] - there.rgb[0]).abs() < 1e-6, "{here:?} {there:?}");
         }
     }
@@ -85,10 +85,9 @@ fn a_panorama_has_no_seam_across_the_poles() {
 
 #[test]
 fn brightness_is_a_factor() {
-    let texture = star(36, 17, 0.0).texture().clone();
-    let sky = Panorama::new(texture, 1e-3, Orientation::upright(0.0), 3.0);
+    let sky = star(36, 17, 0.0, 3.0);
     let (theta, phi) = direction_of_pixel(36, 17, 0.0);
-    assert!((sky.radiance(theta, phi).rgb[2] - 3.0).abs() < 1e-9);
+    assert!((sky.radiance(theta, phi, 0.0).rgb[2] - 3.0).abs() < 1e-9);
 
     let colour = Light::new([0.9, 0.8, 0.7]);
     let (plain, bright) = (Grid::new(0.2, colour, 1.0), Grid::new(0.2, colour, 2.5));
@@ -163,11 +162,12 @@ fn the_four_parts_differ() {
 proptest! {
     #[test]
     fn any_direction_gives_finite_light(
-        theta in prop::num::f64::ANY, phi in prop::num::f64::ANY, spacing in prop::num::f64::ANY
+        theta in prop::num::f64::ANY, phi in prop::num::f64::ANY,
+        spacing in prop::num::f64::ANY, angle in prop::num::f64::ANY,
     ) {
         let grid = Grid::new(spacing, Light::new([1.0; 3]), 1.0);
-        for sky in [Sky::Grid(grid), Sky::Panorama(star(3, 4, 0.0))] {
-            let light = sky.radiance(theta, phi);
+        for sky in [Sky::Grid(grid), Sky::Panorama(star(3, 4, 0.0, 1.0))] {
+            let light = sky.radiance(theta, phi, angle);
             prop_assert!(light.rgb.iter().all(|c| (0.0..=1.0).contains(c)), "{:?}", light);
         }
     }

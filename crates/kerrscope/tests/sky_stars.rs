@@ -297,7 +297,7 @@ fn brightness_is_a_factor_and_light_is_finite_everywhere() {
     let sky = Sky::Stars(one);
     for bad in [f64::NAN, f64::INFINITY, -1e300] {
         for (theta, phi) in [(bad, 1.0), (1.0, bad)] {
-            assert!(sky.radiance(theta, phi).rgb.iter().all(|c| c.is_finite()));
+            assert!(sky.radiance(theta, phi, 1e-3).rgb.iter().all(|c| c.is_finite()));
         }
     }
 }

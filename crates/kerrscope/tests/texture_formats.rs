@@ -4,7 +4,6 @@ use std::io::Cursor;
 
 use exr::prelude::{Encoding, Image, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage};
 use image::{DynamicImage, ImageFormat};
-use kerrscope::display::srgb;
 use kerrscope::texture::{Texture, TextureFault};
 
 fn written(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
@@ -85,27 +84,6 @@ fn a_large_exr_is_made_smaller_while_it_is_read() {
     assert_eq!((texture.width(), texture.height()), (6144, 3072));
     assert_eq!(pixel(&texture, 100, 200), [1.0, 0.5, 0.0]);
     assert_eq!(pixel(&texture, 6000, 3000), [0.0, 0.0, 4.0]);
-}
-
-#[test]
-fn reducing_keeps_the_mean() {
-    let texture = Texture::decode(&written(&small(), ImageFormat::Png)).unwrap();
-    for (level, size) in [(0, (16, 8)), (1, (8, 4)), (2, (4, 2)), (3, (2, 1)), (4, (1, 1)), (40, (1, 1))] {
-        let reduced = texture.reduced(level);
-        assert_eq!((reduced.width(), reduced.height()), size);
-        let mean = |texture: &Texture| {
-            let (w, h) = (texture.width(), texture.height());
-            let sum: f64 = (0..w * h).map(|k| pixel(texture, k % w, k / w)[0]).sum();
-            sum / f64::from(w * h)
-        };
-        assert!((mean(&reduced) / mean(&texture) - 1.0).abs() < 5e-4, "{level}");
-    }
-    // 3 pixels to 1, and 5 to 2: two and a half pixels each.
-    let row: Vec<u8> = vec![0, 255, 0, 255, 255];
-    let gray = image::GrayImage::from_raw(5, 1, row).unwrap();
-    let reduced = Texture::decode(&written(&gray.into(), ImageFormat::Png)).unwrap().reduced(1);
-    assert!((pixel(&reduced, 0, 0)[0] - 0.4).abs() < 1e-3 && (pixel(&reduced, 1, 0)[0] - 0.8).abs() < 1e-3);
-    assert_eq!(srgb::decode(1.0), 1.0);
 }
 
 #[test]

@@ -104,7 +104,7 @@ fn sensitivity(shot: &Shot) -> f64 {
 }
 
 fn trace(shot: &Shot, scheme: Scheme) -> Path {
-    let query = Query { plane: shot.plane, elapsed: true, points: 12, max_crossings: 8 };
+    let query = Query { plane: shot.plane, elapsed: true, points: 12, max_crossings: 8, windings: false };
     follow(&Integrator::new(Kerr::new(shot.spin), scheme, 10_000), &shot.ray, &query)
 }
 

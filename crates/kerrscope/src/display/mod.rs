@@ -6,10 +6,15 @@
 //!
 //! The order is: exposure, tone curve, transfer function.
 
+pub mod chart;
+mod colormap;
+mod false_color;
 mod picture;
 pub mod srgb;
 mod tone;
 
+pub use colormap::{Colormap, NO_VALUE};
+pub use false_color::FalseColor;
 pub use picture::{Depth, Picture};
 pub use tone::Tone;
 

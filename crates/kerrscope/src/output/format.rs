@@ -40,7 +40,7 @@ impl Format {
     pub fn write(self, path: &Path, scene: &Scene, film: &Film) -> Result<(), FileError> {
         let made = Provenance::of(scene);
         match self {
-            Self::Png => png::write(path, &scene.display.view.develop(film), scene.display.depth, &made),
+            Self::Png => png::write(path, &scene.display.picture(film), scene.display.depth, &made),
             Self::Exr => exr::write(path, film, &made),
         }
     }

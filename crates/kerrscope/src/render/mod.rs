@@ -43,6 +43,14 @@ pub struct Watch<'a> {
     pub checkpoint: Option<&'a Checkpoint>,
 }
 
+impl Default for Watch<'_> {
+    /// Nothing: the render goes on to its end.
+    fn default() -> Self {
+        static NEVER: AtomicBool = AtomicBool::new(false);
+        Self { cancelled: &NEVER, progress: &|_| {}, checkpoint: None }
+    }
+}
+
 /// Why a picture was not finished.
 #[derive(Debug, thiserror::Error)]
 pub enum Stopped {
@@ -60,12 +68,9 @@ pub enum Stopped {
 /// use kerrscope::render::{Stage, Watch, draw};
 /// use kerrscope::scene::Scene;
 /// # use std::path::Path;
-/// # use std::sync::atomic::AtomicBool;
 /// let scene = Scene::from_toml("[render]\nwidth = 16\nheight = 9\nsamples = 1", Path::new(""))?;
 /// let stage = Stage::new(&scene)?;
-/// let cancelled = AtomicBool::new(false);
-/// let watch = Watch { cancelled: &cancelled, progress: &|_| {}, checkpoint: None };
-/// let film = draw(&stage, &watch)?;
+/// let film = draw(&stage, &Watch::default())?;
 /// assert_eq!(film.light.len(), 144);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```

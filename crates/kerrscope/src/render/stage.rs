@@ -7,7 +7,7 @@ use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::{Beam, Light};
 use crate::scene::{self, Method, Scene, ScreenKind, SkyPicture, Spacetime};
-use crate::sky::{Grid, Panorama, Sky, Stars};
+use crate::sky::{Grid, Panorama, Sky, Stars, footprint};
 use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Straight, Tracer};
 use crate::spacetime::metric::{Kerr, Schwarzschild};
 use crate::spacetime::observer::ObserverError;
@@ -23,6 +23,8 @@ pub struct Stage {
     probe: Probe,
     disk: Option<Disk>,
     sky: Sky,
+    /// Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
+    pixel: f64,
     sampler: Sampler,
 }
 
@@ -42,6 +44,15 @@ pub enum StageError {
 pub struct Replay {
     /// The ray's path.
     pub path: Path,
+    /// What the rays of a pixel see.
+    views: Vec<View>,
+}
+
+/// What a ray sees: light gathered on its way, and the direction of the sky behind, if it sees it.
+#[derive(Clone, Debug)]
+struct View {
+    beam: Beam,
+    sky: Option<[f64; 2]>,
 }
 
 impl Stage {
@@ -56,6 +67,7 @@ impl Stage {
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
             ..Query::default()
         };
+        let pixel = pixel_angle(scene);
         Ok(Self {
             size: [scene.render.width, scene.render.height],
             samples: scene.render.samples,
@@ -64,7 +76,8 @@ impl Stage {
             probe: Probe::new(scene, &query),
             query,
             disk,
-            sky: sky(scene)?,
+            sky: sky(scene, pixel)?,
+            pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
         })
     }
@@ -97,10 +110,19 @@ impl Stage {
     /// The mean light of a pixel's rays.
     pub fn pixel(&self, [x, y]: [u32; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
         let number = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
-        let mut sum = Light::DARK;
+        replay.views.clear();
         for sample in 0..self.samples {
             let [right, down] = self.sampler.place(number, sample);
-            sum += self.ray([f64::from(x) + right, f64::from(y) + down], replay, tally);
+            let view = self.view([f64::from(x) + right, f64::from(y) + down], &mut replay.path, tally);
+            replay.views.push(view);
+        }
+        let mut angle = self.pixel / f64::from(self.samples).sqrt();
+        if let Sky::Panorama(_) = self.sky {
+            angle = footprint(replay.views.iter().filter_map(|view| view.sky), angle);
+        }
+        let mut sum = Light::DARK;
+        for view in &replay.views {
+            sum += self.light(view, angle);
         }
         sum * (1.0 / f64::from(self.samples))
     }
@@ -114,14 +136,24 @@ impl Stage {
         tally: &mut Tally,
     ) -> impl Iterator<Item = f32> + use<'a> {
         let centre = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let ray = self.follow(centre, self.probe.query(), replay, tally);
+        let ray = self.follow(centre, self.probe.query(), &mut replay.path, tally);
         self.probe.values(ray, &replay.path, self.disk.as_ref())
     }
 
-    /// The light that arrives at a point of the picture.
+    /// The light that arrives at a point of the picture, from a pixel's angle of the sky.
     pub fn ray(&self, point: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
-        self.follow(point, &self.query, replay, tally);
-        let path = &replay.path;
+        self.light(&self.view(point, &mut replay.path, tally), self.pixel)
+    }
+
+    /// A view's light, if the ray stands for an angle on the sky.
+    fn light(&self, view: &View, angle: f64) -> Light {
+        let sky = view.sky.map_or(Light::DARK, |[theta, phi]| self.sky.radiance(theta, phi, angle));
+        view.beam.end(sky)
+    }
+
+    /// What is seen at a point of the picture.
+    fn view(&self, point: [f64; 2], path: &mut Path, tally: &mut Tally) -> View {
+        self.follow(point, &self.query, path, tally);
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
             for crossing in &path.crossings {
@@ -131,16 +163,11 @@ impl Stage {
                 }
             }
         }
-        let background = match path.direction {
-            Some([theta, phi]) if !beam.is_blocked() => self.sky.radiance(theta, phi),
-            _ => Light::DARK,
-        };
-        beam.end(background)
+        View { beam, sky: path.direction.filter(|_| !beam.is_blocked()) }
     }
 
     /// Follows the ray that arrives at a point of the picture.
-    fn follow(&self, [x, y]: [f64; 2], query: &Query, replay: &mut Replay, tally: &mut Tally) -> Option<Ray> {
-        let path = &mut replay.path;
+    fn follow(&self, [x, y]: [f64; 2], query: &Query, path: &mut Path, tally: &mut Tally) -> Option<Ray> {
         let ray = self.camera.ray(x, y).ok();
         if let Some(ray) = &ray {
             self.tracer.trace(ray, query, path);
@@ -193,12 +220,10 @@ fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
     })
 }
 
-/// The sky, as fine as the picture can show it.
-fn sky(scene: &Scene) -> Result<Sky, TextureError> {
-    let sky = &scene.sky;
+/// The angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
+fn pixel_angle(scene: &Scene) -> f64 {
     let pixels = f64::from(scene.render.height);
-    // Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
-    let pixel = match scene.screen.kind {
+    match scene.screen.kind {
         ScreenKind::Pinhole { height } => 2.0 * (0.5 * height).tan() / pixels,
         ScreenKind::Angular { height } => height / pixels,
         // For a distant observer this is nothing; then what deflection by 4/b makes of it at the
@@ -207,14 +232,19 @@ fn sky(scene: &Scene) -> Result<Sky, TextureError> {
             let deflection = 4.0 / (0.5 * height).powi(2);
             height / pixels * deflection.min(1.0).max(scene.observer.place.r.recip())
         }
-    };
+    }
+}
+
+/// The sky of a picture whose pixels cover an angle on it if nothing bends light.
+fn sky(scene: &Scene, pixel: f64) -> Result<Sky, TextureError> {
+    let sky = &scene.sky;
     Ok(match &sky.picture {
         SkyPicture::Black => Sky::Black,
         SkyPicture::Uniform { color } => Sky::Uniform(linear(*color) * sky.brightness),
         SkyPicture::Grid { color, spacing } => Sky::Grid(Grid::new(*spacing, linear(*color), sky.brightness)),
         SkyPicture::Stars { orientation } => Sky::Stars(Stars::new(pixel, *orientation, sky.brightness)),
         SkyPicture::Panorama { path, orientation } => {
-            Sky::Panorama(Panorama::new(Texture::load(path)?, pixel, *orientation, sky.brightness))
+            Sky::Panorama(Panorama::new(Texture::load(path)?, *orientation, sky.brightness))
         }
     })
 }

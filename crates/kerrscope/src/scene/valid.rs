@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use crate::disk::Mapping;
-use crate::display::{self, Depth};
+use crate::display::{self, Depth, FalseColor, Picture};
+use crate::render::Film;
 use crate::render::Layer;
 use crate::sky::Orientation;
 use kerrscope_spacetime::observer::{Motion, Place};
@@ -212,8 +213,17 @@ pub enum Method {
 /// What picture files show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Display {
-    /// How it is shown on a screen.
+    /// How light is shown on a screen.
     pub view: display::Display,
+    /// The data layer that is shown instead, if any.
+    pub layer: Option<FalseColor>,
     /// Bits of a colour channel.
     pub depth: Depth,
+}
+
+impl Display {
+    /// What a screen shows of a film.
+    pub fn picture(&self, film: &Film) -> Picture {
+        self.layer.map_or_else(|| self.view.develop(film), |layer| layer.develop(film))
+    }
 }

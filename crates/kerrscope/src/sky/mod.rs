@@ -12,6 +12,7 @@
 mod catalogue;
 mod color;
 mod cube;
+mod footprint;
 mod glow;
 mod grid;
 mod orientation;
@@ -19,6 +20,7 @@ mod panorama;
 mod stars;
 
 pub use catalogue::Star;
+pub use footprint::footprint;
 pub use glow::Glow;
 pub use grid::Grid;
 pub use orientation::{Frame, Orientation};
@@ -33,8 +35,8 @@ use crate::light::Light;
 /// use kerrscope::light::Light;
 /// use kerrscope::sky::Sky;
 /// let dusk = Light::new([0.02, 0.03, 0.1]);
-/// assert_eq!(Sky::Uniform(dusk).radiance(1.0, 2.0), dusk);
-/// assert_eq!(Sky::Black.radiance(1.0, 2.0), Light::DARK);
+/// assert_eq!(Sky::Uniform(dusk).radiance(1.0, 2.0, 0.001), dusk);
+/// assert_eq!(Sky::Black.radiance(1.0, 2.0, 0.001), Light::DARK);
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Sky {
@@ -52,14 +54,15 @@ pub enum Sky {
 }
 
 impl Sky {
-    /// The light that comes from a direction. Finite for any direction.
-    pub fn radiance(&self, theta: f64, phi: f64) -> Light {
+    /// The light that comes from a direction, for a ray that stands for an angle on the sky in
+    /// radians; see [`footprint`]. Panoramas alone take notice of the angle. Finite for any numbers.
+    pub fn radiance(&self, theta: f64, phi: f64, angle: f64) -> Light {
         match self {
             Self::Black => Light::DARK,
             Self::Uniform(light) => *light,
             Self::Grid(grid) => grid.radiance(theta, phi),
             Self::Stars(stars) => stars.radiance(theta, phi),
-            Self::Panorama(panorama) => panorama.radiance(theta, phi),
+            Self::Panorama(panorama) => panorama.radiance(theta, phi, angle),
         }
     }
 }

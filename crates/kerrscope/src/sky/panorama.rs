@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::Orientation;
 use crate::light::Light;
-use crate::texture::Texture;
+use crate::texture::{Sphere, Texture};
 
 /// An equirectangular picture of the sky, as seen from inside.
 ///
@@ -31,43 +31,29 @@ use crate::texture::Texture;
 /// # let path = folder.path().join("sky.png");
 /// // The right half of the picture is white.
 /// image::save_buffer(&path, &[0, 0, 255, 255], 4, 1, image::ColorType::L8)?;
-/// let sky = Panorama::new(Texture::load(&path)?, 0.001, Orientation::upright(0.0), 2.0);
+/// let sky = Panorama::new(Texture::load(&path)?, Orientation::upright(0.0), 2.0);
 /// // Facing +x, which is the picture's middle, the right is at negative azimuth.
-/// assert_eq!(sky.radiance(FRAC_PI_2, -FRAC_PI_4).rgb, [2.0; 3]);
-/// assert_eq!(sky.radiance(FRAC_PI_2, FRAC_PI_4).rgb, [0.0; 3]);
+/// assert_eq!(sky.radiance(FRAC_PI_2, -FRAC_PI_4, 0.001).rgb, [2.0; 3]);
+/// assert_eq!(sky.radiance(FRAC_PI_2, FRAC_PI_4, 0.001).rgb, [0.0; 3]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panorama {
-    texture: Texture,
+    picture: Sphere,
     orientation: Orientation,
     brightness: f64,
 }
 
 impl Panorama {
-    /// A picture of the sky for pictures whose pixels cover an angle in radians each; brightness
-    /// is a factor on the picture's light, whose white is 1.
-    ///
-    /// Of the levels of a mip map (the picture itself, and each level half the one before it in
-    /// both directions) the coarsest is kept whose pixels are not larger than `pixel` at the
-    /// equator. Where a hole magnifies the sky, finer ones could be seen and are not; where it
-    /// shrinks it, several rays a pixel are needed.
-    pub fn new(texture: Texture, pixel: f64, orientation: Orientation, brightness: f64) -> Self {
-        let ratio = pixel * f64::from(texture.width()) / TAU;
-        let level = if ratio >= 2.0 { ratio.log2().min(31.0) as u32 } else { 0 };
-        let texture = if level == 0 { texture } else { texture.reduced(level) };
-        Self { texture, orientation, brightness }
+    /// A picture of the sky; brightness is a factor on its light, whose white is 1.
+    pub fn new(picture: Texture, orientation: Orientation, brightness: f64) -> Self {
+        Self { picture: Sphere::new(picture), orientation, brightness }
     }
 
-    /// The light that comes from a direction.
-    pub fn radiance(&self, theta: f64, phi: f64) -> Light {
+    /// The light that comes from a direction, for a ray that stands for an angle on the sky.
+    pub fn radiance(&self, theta: f64, phi: f64, angle: f64) -> Light {
         let [x, y, z] = self.orientation.inwards(theta, phi);
         let (u, v) = (0.5 - y.atan2(x) / TAU, x.hypot(y).atan2(z) / PI);
-        self.texture.sample_sphere(u, v).light * self.brightness
-    }
-
-    /// The level of the picture that is looked at.
-    pub fn texture(&self) -> &Texture {
-        &self.texture
+        self.picture.sample(u, v, angle).light * self.brightness
     }
 }

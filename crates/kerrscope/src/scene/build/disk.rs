@@ -16,7 +16,7 @@ impl Builder<'_> {
                     [("disk.image", file.image.is_some()), ("disk.mapping", file.mapping.is_some())]
                 {
                     if given {
-                        self.unused(key, "disk.model", "image");
+                        self.unused(key, "disk.model", &["image"]);
                     }
                 }
                 Surface::Ring { seed: file.seed }

@@ -2,21 +2,23 @@
 
 mod coordinates;
 mod disk;
+mod display;
 mod observer;
 mod screen;
+mod sky;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use kerrscope_spacetime::observer::Place;
+use serde::Serialize;
 
 use super::fault::{Collector, one_line};
 use super::file::{self, SceneFile, SpacetimeName};
 use super::tree::Node;
-use super::valid::{Display, Method, Render, Sky, SkyPicture, Spacetime};
+use super::valid::{Method, Render, Spacetime};
 use super::{Scene, shape};
-use crate::display::{self, Depth};
-use crate::sky::{Frame, Orientation};
+use crate::render::Layer;
 
 /// The largest number of rays in a picture: width × height × samples.
 const MAX_RAYS: u64 = 1 << 36;
@@ -43,15 +45,10 @@ pub(super) fn build(
         screen: builder.screen(&file.screen, spacetime, observer),
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
-        render: builder.render(&file.render, observer.place),
-        display: display(&file.camera.display),
+        render: builder.render(&file.render, file.camera.display.layer, observer.place),
+        display: builder.display(&file.camera.display),
         file,
     }
-}
-
-fn display(file: &file::Display) -> Display {
-    let view = display::Display { exposure: file.exposure, tone: file.tone };
-    Display { view, depth: if file.bits == 16 { Depth::Sixteen } else { Depth::Eight } }
 }
 
 struct Builder<'a> {
@@ -101,55 +98,8 @@ impl Builder<'_> {
         spacetime
     }
 
-    fn sky(&mut self, file: &file::Sky) -> Sky {
-        let color = file.color;
-        let azimuth = file.longitude.to_radians();
-        let stands = |known: Option<Frame>| {
-            known
-                .map_or(Orientation::upright(azimuth), |known| {
-                    Orientation::celestial(known, file.frame, azimuth)
-                })
-                .turned(file.rotation.map(f64::to_radians))
-        };
-        let picture = match file.kind {
-            file::SkyKind::Black => SkyPicture::Black,
-            file::SkyKind::Uniform => SkyPicture::Uniform { color },
-            file::SkyKind::Grid => {
-                let lines = 90.0 / file.spacing;
-                if (lines - lines.round()).abs() > 1e-9 * lines {
-                    // 90 divided by these is written with few digits, as 90/13 is not.
-                    let short = |lines: &u32| 9_000_000 % lines == 0;
-                    let below = (lines.ceil() as u32..=900).find(short).unwrap_or(900);
-                    let above = (1..=lines.floor() as u32).rev().find(short).unwrap_or(1);
-                    let [below, above] = [below, above].map(|lines| 90.0 / f64::from(lines));
-                    self.fault(
-                        &["sky.spacing", "sky.kind"],
-                        format!("lines {}° apart do not divide 90° into equal parts", file.spacing),
-                        format!("give a divisor of 90 such as {below} or {above}"),
-                    );
-                }
-                SkyPicture::Grid { color, spacing: file.spacing.to_radians() }
-            }
-            file::SkyKind::Panorama => SkyPicture::Panorama {
-                path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
-                orientation: stands(match file.image_frame {
-                    file::ImageFrame::Scene => None,
-                    file::ImageFrame::Galactic => Some(Frame::Galactic),
-                    file::ImageFrame::Equatorial => Some(Frame::Equatorial),
-                }),
-            },
-            file::SkyKind::Stars => SkyPicture::Stars { orientation: stands(Some(Frame::Equatorial)) },
-        };
-        // The word for no sky leaves the picture unused on purpose; others may be a slip.
-        if file.image.is_some()
-            && matches!(file.kind, file::SkyKind::Uniform | file::SkyKind::Grid | file::SkyKind::Stars)
-        {
-            self.unused("sky.image", "sky.kind", "panorama");
-        }
-        Sky { picture, brightness: file.brightness }
-    }
-
-    fn render(&mut self, file: &file::Render, place: Place) -> Render {
+    fn render(&mut self, file: &file::Render, shown: Option<Layer>, place: Place) -> Render {
+        let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
         if rays > MAX_RAYS {
             let pixels = u64::from(file.width) * u64::from(file.height);
@@ -190,16 +140,23 @@ impl Builder<'_> {
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
-            layers: file.layers.iter().copied().collect::<BTreeSet<_>>().into_iter().collect(),
+            layers: layers.into_iter().collect(),
         }
     }
 
-    /// A key that the chosen kind takes no notice of.
-    fn unused(&mut self, key: &str, chooser: &str, wanted: &str) {
+    /// A key that the chosen kind takes no notice of, but those wanted would.
+    fn unused(&mut self, key: &str, chooser: &str, wanted: &[impl Serialize]) {
+        // JSON quotes words as TOML does.
+        let words = wanted.iter().map(|word| serde_json::json!(word));
+        let choices: Vec<String> = words
+            .enumerate()
+            .map(|(i, word)| if i == 0 { format!("`{chooser} = {word}`") } else { word.to_string() })
+            .collect();
+        let choices = shape::either(&choices);
         self.fault(
             &[key, chooser],
-            format!("`{key}` is used with `{chooser} = \"{wanted}\"` only"),
-            format!("set `{chooser} = \"{wanted}\"`, or remove `{key}`"),
+            format!("`{key}` is used with {choices} only"),
+            format!("set {choices}, or remove `{key}`"),
         );
     }
 

@@ -16,6 +16,7 @@ pub use observer::{Motion, MotionName, Observer, RelativeTo, Velocity};
 pub(super) use render::RK4_STEP;
 pub use render::{Camera, Display, Render};
 pub use screen::{Screen, ScreenKind};
+pub(super) use sky::USES as SKY_USES;
 pub use sky::{ImageFrame, Sky, SkyKind};
 pub use spacetime::{Spacetime, SpacetimeName};
 
@@ -55,8 +56,9 @@ impl SceneFile {
             observer: self.observer.complete(),
             screen: self.screen.complete(),
             disk: self.disk.complete(),
+            sky: self.sky.complete(),
             render: self.render.complete(),
-            ..self.clone()
+            camera: self.camera.clone(),
         }
     }
 

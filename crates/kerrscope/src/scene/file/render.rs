@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::display::Tone;
+use crate::display::{Colormap, Tone};
 use crate::render::Layer;
 use crate::scene::{Engine, Method};
 
@@ -99,10 +99,39 @@ pub struct Display {
     /// Bits of a colour channel in the picture file, 8 or 16.
     #[schemars(extend("enum" = [8, 16]))]
     pub bits: u8,
+    /// Data layer to show in false colours instead of the light.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Layer")]
+    pub layer: Option<Layer>,
+    /// Image order of the layer, for "r", "phi", "t" and "g"; 0 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "u8", range(max = 2))]
+    pub order: Option<u8>,
+    /// Colours of the layer; without it, those that suit it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Colormap")]
+    pub colormap: Option<Colormap>,
+    /// Values [low, high] at the ends of the colours; without it, nearly all that there are.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[f64; 2]")]
+    pub range: Option<[f64; 2]>,
+    /// Whether there is a legend below the picture of a layer; true if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "bool")]
+    pub legend: Option<bool>,
 }
 
 impl Default for Display {
     fn default() -> Self {
-        Self { exposure: 0.0, tone: Tone::default(), bits: 8 }
+        Self {
+            exposure: 0.0,
+            tone: Tone::default(),
+            bits: 8,
+            layer: None,
+            order: None,
+            colormap: None,
+            range: None,
+            legend: None,
+        }
     }
 }

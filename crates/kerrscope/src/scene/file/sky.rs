@@ -5,21 +5,32 @@ use serde::{Deserialize, Serialize};
 
 use crate::sky::Frame;
 
-/// What is seen where light comes from infinity.
-#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+const COLOR: [f64; 3] = [0.2, 0.34, 0.55];
+const SPACING: f64 = 15.0;
+const BRIGHTNESS: f64 = 1.0;
+const LONGITUDE: f64 = 180.0;
+const ROTATION: [f64; 3] = [0.0; 3];
+
+/// What is seen where light comes from infinity. A key that the kind takes no notice of is a fault,
+/// but for "black", which puts a sky away.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sky {
     /// What the sky looks like.
     pub kind: SkyKind,
-    /// Colour [red, green, blue] in sRGB: of a "uniform" sky, or of the lines of a "grid".
-    #[schemars(inner(range(min = 0, max = 1)))]
-    pub color: [f64; 3],
+    /// Colour [red, green, blue] in sRGB: of a "uniform" sky, or of the lines of a "grid";
+    /// [0.2, 0.34, 0.55] if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[f64; 3]", inner(range(min = 0, max = 1)))]
+    pub color: Option<[f64; 3]>,
     /// Factor on the sky's light.
-    #[schemars(range(min = 0, max = 1e12))]
-    pub brightness: f64,
-    /// Angle between the lines of a "grid" in degrees; divides 90 into equal parts.
-    #[schemars(range(min = 1, max = 90))]
-    pub spacing: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(min = 0, max = 1e12), extend("default" = BRIGHTNESS))]
+    pub brightness: Option<f64>,
+    /// Angle between the lines of a "grid" in degrees; divides 90 into equal parts; 15 if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(min = 1, max = 90))]
+    pub spacing: Option<f64>,
     /// Picture file of the whole sky, twice as wide as high, relative to the scene file's
     /// folder; for "panorama", and needed there.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,18 +39,24 @@ pub struct Sky {
     /// Coordinates of the real sky that stand upright: their north is along +z, and their
     /// longitude 0 (the centre of the Galaxy, or right ascension 0 of J2000) at the azimuth
     /// `longitude`. For "stars", and for a "panorama" that is not drawn in those of the "scene".
-    pub frame: Frame,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Frame", extend("default" = Frame::default()))]
+    pub frame: Option<Frame>,
     /// Coordinates that a "panorama" is drawn in, with north at the top, longitude 0 in the middle
-    /// and growing to the left.
-    pub image_frame: ImageFrame,
+    /// and growing to the left; "scene" if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "ImageFrame")]
+    pub image_frame: Option<ImageFrame>,
     /// Azimuth in degrees of longitude 0 of `frame`, or of the middle of a "panorama" that is drawn
-    /// in the coordinates of the "scene".
-    #[schemars(range(min = -1e6, max = 1e6))]
-    pub longitude: f64,
+    /// in the coordinates of the "scene". For "stars" and "panorama".
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "f64", range(min = -1e6, max = 1e6), extend("default" = LONGITUDE))]
+    pub longitude: Option<f64>,
     /// Angles in degrees by which "stars" or a "panorama" are then turned about the axes x, y and z
     /// of the scene, in this order.
-    #[schemars(inner(range(min = -1e6, max = 1e6)))]
-    pub rotation: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[f64; 3]", inner(range(min = -1e6, max = 1e6)), extend("default" = ROTATION))]
+    pub rotation: Option<[f64; 3]>,
 }
 
 /// What a sky looks like.
@@ -72,18 +89,38 @@ pub enum ImageFrame {
     Equatorial,
 }
 
-impl Default for Sky {
-    fn default() -> Self {
+/// The kinds that take notice of each key, but for `kind` and `brightness`; of `frame` a panorama
+/// takes none if it is drawn in the coordinates of the scene.
+pub(in crate::scene) const USES: [(&str, &[SkyKind]); 7] = [
+    ("color", &[SkyKind::Uniform, SkyKind::Grid]),
+    ("spacing", &[SkyKind::Grid]),
+    ("image", &[SkyKind::Panorama]),
+    ("frame", &[SkyKind::Stars, SkyKind::Panorama]),
+    ("image_frame", &[SkyKind::Panorama]),
+    ("longitude", &[SkyKind::Stars, SkyKind::Panorama]),
+    ("rotation", &[SkyKind::Stars, SkyKind::Panorama]),
+];
+
+impl Sky {
+    pub(super) fn complete(&self) -> Self {
+        let kind = self.kind;
+        if kind == SkyKind::Black {
+            // A sky that is put away.
+            return Self { kind, ..Self::default() };
+        }
+        let uses = |key| USES.iter().any(|(k, kinds)| *k == key && kinds.contains(&kind));
+        let image_frame = self.image_frame.or(uses("image_frame").then(ImageFrame::default));
+        let framed = uses("frame") && image_frame != Some(ImageFrame::Scene);
         Self {
-            kind: SkyKind::default(),
-            color: [0.2, 0.34, 0.55],
-            brightness: 1.0,
-            spacing: 15.0,
-            image: None,
-            frame: Frame::default(),
-            image_frame: ImageFrame::default(),
-            longitude: 180.0,
-            rotation: [0.0; 3],
+            kind,
+            color: self.color.or(uses("color").then_some(COLOR)),
+            brightness: self.brightness.or(Some(BRIGHTNESS)),
+            spacing: self.spacing.or(uses("spacing").then_some(SPACING)),
+            image: self.image.clone(),
+            frame: self.frame.or(framed.then(Frame::default)),
+            image_frame,
+            longitude: self.longitude.or(uses("longitude").then_some(LONGITUDE)),
+            rotation: self.rotation.or(uses("rotation").then_some(ROTATION)),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Long checks, each with a dated report that is kept.
+//! The shadow on pixels against the critical curve.
 
 use kerrscope::spacetime::geodesic::{Fate, Integrator, Path as Ray, Query, Scheme, Tracer};
 use kerrscope::spacetime::kerr::CriticalCurve;
@@ -6,34 +6,6 @@ use kerrscope::spacetime::metric::Kerr;
 use kerrscope::spacetime::observer::impact_ray;
 use rayon::prelude::*;
 use std::fmt::Write;
-use std::path::Path;
-use std::time::Instant;
-use time::OffsetDateTime;
-
-/// Runs a campaign and writes reports/NAME-DATE.md.
-pub fn run(root: &Path, name: &str) -> Result<(), String> {
-    let start = Instant::now();
-    let (passed, body) = match name {
-        "shadow" => shadow()?,
-        "fuzz" => super::fuzz::campaign(root)?,
-        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, fuzz")),
-    };
-    let date = OffsetDateTime::now_utc().date();
-    let verdict = if passed { "passed" } else { "FAILED" };
-    let report = format!(
-        "# Campaign {name}, {date}: {verdict}\n\nkerrscope {}, `cargo xtask campaign {name}`, {:.0} s with {} threads.\n\n{body}",
-        env!("CARGO_PKG_VERSION"),
-        start.elapsed().as_secs_f64(),
-        rayon::current_num_threads(),
-    );
-    let folder = root.join("reports");
-    let file = folder.join(format!("{name}-{date}.md"));
-    std::fs::create_dir_all(&folder)
-        .and_then(|()| std::fs::write(&file, &report))
-        .map_err(|e| format!("{}: {e}", file.display()))?;
-    println!("{report}\nkept as {}", file.display());
-    if passed { Ok(()) } else { Err(format!("campaign {name} failed")) }
-}
 
 /// Pixels along an edge of the screen, and M from its middle to an edge.
 const EDGE: u32 = 1024;
@@ -42,7 +14,7 @@ const HALF_FIELD: f64 = 9.0;
 /// Each of 1024² pixels of the α–β screen is traced from infinity; neighbours of which one is
 /// captured and the other is not enclose the boundary. Its distance from the critical curve
 /// must nowhere exceed 0.6 pixels, and the curve must nowhere be farther than 1 pixel from such a pair.
-fn shadow() -> Result<(bool, String), String> {
+pub fn run() -> Result<(bool, String), String> {
     let mut body = String::from(
         "Boundary of the captured pixels on the α–β screen (1024², 18 M across) against the critical curve.\n\n\
          | a | i | captured | width (px) | farthest boundary (px) | farthest curve point (px) |\n|---|---|---|---|---|---|\n",

@@ -1,0 +1,81 @@
+//! The sky.
+
+use super::Builder;
+use crate::scene::file::{self, ImageFrame, SKY_USES, SkyKind};
+use crate::scene::valid::{Sky, SkyPicture};
+use crate::sky::{Frame, Orientation};
+
+impl Builder<'_> {
+    pub(super) fn sky(&mut self, file: &file::Sky) -> Sky {
+        self.unused_of_sky(file);
+        let color = file.color.unwrap_or_default();
+        let picture = match file.kind {
+            SkyKind::Black => SkyPicture::Black,
+            SkyKind::Uniform => SkyPicture::Uniform { color },
+            SkyKind::Grid => SkyPicture::Grid { color, spacing: self.spacing(file).to_radians() },
+            SkyKind::Panorama => SkyPicture::Panorama {
+                path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
+                orientation: orientation(
+                    file,
+                    match file.image_frame.unwrap_or_default() {
+                        ImageFrame::Scene => None,
+                        ImageFrame::Galactic => Some(Frame::Galactic),
+                        ImageFrame::Equatorial => Some(Frame::Equatorial),
+                    },
+                ),
+            },
+            SkyKind::Stars => SkyPicture::Stars { orientation: orientation(file, Some(Frame::Equatorial)) },
+        };
+        Sky { picture, brightness: file.brightness.unwrap_or(1.0) }
+    }
+
+    /// What is typed and has no effect.
+    fn unused_of_sky(&mut self, file: &file::Sky) {
+        // A sky that is put away keeps its keys; with other kinds they may be a slip.
+        if file.kind == SkyKind::Black {
+            return;
+        }
+        for (key, kinds) in SKY_USES {
+            let key = format!("sky.{key}");
+            if self.root.at(&key).is_some() && !kinds.contains(&file.kind) {
+                self.unused(&key, "sky.kind", kinds);
+            }
+        }
+        if file.kind == SkyKind::Panorama
+            && file.image_frame == Some(ImageFrame::Scene)
+            && file.frame.is_some()
+        {
+            let drawn = [ImageFrame::Galactic, ImageFrame::Equatorial];
+            self.unused("sky.frame", "sky.image_frame", &drawn);
+        }
+    }
+
+    /// The angle between the lines of a grid.
+    fn spacing(&mut self, file: &file::Sky) -> f64 {
+        let spacing = file.spacing.unwrap_or_default();
+        let lines = 90.0 / spacing;
+        if (lines - lines.round()).abs() > 1e-9 * lines {
+            // 90 divided by these is written with few digits, as 90/13 is not.
+            let short = |lines: &u32| 9_000_000 % lines == 0;
+            let below = (lines.ceil() as u32..=900).find(short).unwrap_or(900);
+            let above = (1..=lines.floor() as u32).rev().find(short).unwrap_or(1);
+            let [below, above] = [below, above].map(|lines| 90.0 / f64::from(lines));
+            self.fault(
+                &["sky.spacing", "sky.kind"],
+                format!("lines {spacing}° apart do not divide 90° into equal parts"),
+                format!("give a divisor of 90 such as {below} or {above}"),
+            );
+        }
+        spacing
+    }
+}
+
+/// How a sky stands that is known in coordinates of its own, or in those of the scene.
+fn orientation(file: &file::Sky, known: Option<Frame>) -> Orientation {
+    let azimuth = file.longitude.unwrap_or_default().to_radians();
+    known
+        .map_or(Orientation::upright(azimuth), |known| {
+            Orientation::celestial(known, file.frame.unwrap_or_default(), azimuth)
+        })
+        .turned(file.rotation.unwrap_or_default().map(f64::to_radians))
+}
