@@ -6,8 +6,7 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use kerrscope::output::Provenance;
-use kerrscope::output::png::decode_provenance;
+use kerrscope::output::{Provenance, exr, png};
 use kerrscope::scene::{Faults, Scene};
 use kerrscope::texture::Texture;
 
@@ -68,11 +67,14 @@ fn examine_texture(texture: &Texture) {
     }
 }
 
-/// A PNG with the record of how it was made, or that record as text.
+/// A PNG or OpenEXR file with the record of how it was made, or that record as text.
 pub fn provenance(bytes: &[u8]) {
-    let from_file = decode_provenance(Cursor::new(bytes), Path::new("picture.png")).ok();
+    let from_png = png::decode_provenance(Cursor::new(bytes), Path::new("picture.png")).ok();
+    let from_exr = exr::decode_provenance(bytes, Path::new("picture.exr")).ok();
     let from_text = std::str::from_utf8(bytes).ok().and_then(|text| text.parse::<Provenance>().ok());
-    for made in from_file.into_iter().chain(from_text) {
+    for made in [from_png, from_exr, from_text].into_iter().flatten() {
         assert_eq!(made.to_string().parse().as_ref(), Ok(&made));
+        // The record is given as a scene.
+        examine(&Scene::from_record("picture", &made.scene_toml, &[], Path::new("")));
     }
 }

@@ -4,16 +4,20 @@
 //!     cargo xtask check            formatting, lints, documentation
 //!     cargo xtask pictures         the pictures of README.md and scenes/
 //!     cargo xtask campaign NAME    longer work, its dated report kept in reports/
+//!     cargo xtask fuzz [TARGET] [--seconds N]
+//!                                  libFuzzer on what reads files, 10 minutes a target
 //!     cargo xtask sky-data FOLDER  data of the sky again; see crates/kerrscope/data/README.md
 
 mod campaign;
+mod fuzz;
 mod pictures;
 mod sky_data;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME | sky-data FOLDER";
+const USAGE: &str =
+    "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] | sky-data FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -23,6 +27,7 @@ fn main() -> ExitCode {
         ["check"] => check(),
         ["pictures"] => pictures::draw(&root()),
         ["campaign", name] => campaign::run(&root(), name),
+        ["fuzz", ref words @ ..] => fuzz::run(&root(), words),
         ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
         _ => Err(USAGE.to_owned()),
     };
@@ -79,6 +84,7 @@ fn python() -> Option<String> {
 
 fn check() -> Result<(), String> {
     cargo(&["fmt", "--all", "--check"], &[])?;
+    cargo(&["fmt", "--manifest-path", "fuzz/Cargo.toml", "--check"], &[])?;
     cargo(&["clippy", "--workspace", "--all-targets", "--locked", "--", "-D", "warnings"], &[])?;
     cargo(&["doc", "--workspace", "--no-deps", "--locked"], &[("RUSTDOCFLAGS", "-D warnings")])
 }

@@ -13,7 +13,8 @@ pub fn run(root: &Path, name: &str) -> Result<(), String> {
     let (passed, body) = match name {
         "shadow" => shadow::run()?,
         "resume" => resume::run(root)?,
-        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, resume")),
+        "fuzz" => super::fuzz::campaign(root)?,
+        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, resume, fuzz")),
     };
     let date = OffsetDateTime::now_utc().date();
     let verdict = if passed { "passed" } else { "FAILED" };

@@ -12,7 +12,7 @@
 
 use std::collections::HashMap;
 use std::fs::File;
-use std::io::{self, BufReader, Cursor, Write};
+use std::io::{self, BufReader, Cursor, Read, Write};
 use std::path::Path;
 
 use exr::error::Error;
@@ -105,7 +105,15 @@ fn plain(error: Error) -> io::Error {
 /// When the file cannot be read, is no OpenEXR file, or holds no record of this program.
 pub fn read_provenance(path: &Path) -> Result<Provenance, FileError> {
     let file = File::open(path).map_err(|e| FileError::read(path, &e))?;
-    let meta = MetaData::read_from_buffered(BufReader::new(file), false).map_err(|error| match error {
+    decode_provenance(BufReader::new(file), path)
+}
+
+/// Reads from the contents of an OpenEXR file how it was made. `path` is what errors call it.
+///
+/// # Errors
+/// As [`read_provenance`].
+pub fn decode_provenance(file: impl Read, path: &Path) -> Result<Provenance, FileError> {
+    let meta = MetaData::read_from_buffered(file, false).map_err(|error| match error {
         Error::Io(e) if e.kind() != io::ErrorKind::UnexpectedEof => FileError::read(path, &e),
         other => FileError::new("read", path, other.to_string(), "give an OpenEXR file that is whole"),
     })?;

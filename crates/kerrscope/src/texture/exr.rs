@@ -91,12 +91,13 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Texture, TextureFault> {
 /// All channels are unpacked, beside the colours too. The table of blocks may name one block any
 /// number of times, and one of another layer.
 fn check(meta: &MetaData, header: &Header) -> Result<bool, TextureFault> {
-    let size =
-        |size: Vec2<usize>| [size.width(), size.height()].map(|n| u32::try_from(n).unwrap_or(u32::MAX));
-    let [width, height] = size(header.shared_attributes.display_window.size);
-    limits::check(width, height, 0)?;
-    let [width, height] = size(header.layer_size);
-    limits::check(width, height, 0)?;
+    let size = header.layer_size;
+    for size in [header.shared_attributes.display_window.size, size] {
+        let [width, height] =
+            [size.width(), size.height()].map(|edge| u32::try_from(edge).unwrap_or(u32::MAX));
+        // Three samples of 16 bits.
+        limits::check(width, height, (u64::from(width) * u64::from(height)).saturating_mul(6))?;
+    }
 
     let block = |header: &Header| {
         let size = match header.blocks {
@@ -112,7 +113,8 @@ fn check(meta: &MetaData, header: &Header) -> Result<bool, TextureFault> {
     let all = block.saturating_mul(header.chunk_count as u64);
     if block > MAX_BLOCK_BYTES || all > MAX_UNPACKED_BYTES {
         let [block, all] = [block, all].map(|bytes| bytes >> 20);
-        let what = format!("{width}×{height} pixels in blocks of {block} MiB, {all} MiB with all channels");
+        let [width, height] = [size.width(), size.height()];
+        let what = format!("{width}×{height} pixels in blocks of {block} MiB, {all} MiB in all");
         return Err(TextureFault::Unsupported(what));
     }
     let threads = std::thread::available_parallelism().map_or(1, |n| n.get() as u64);
