@@ -4,6 +4,7 @@
 //! watch. It needs a C++ compiler, for libFuzzer.
 
 use kerrscope::scene::SceneFile;
+use rayon::prelude::*;
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -72,29 +73,39 @@ fn fuzz(root: &Path, targets: &[(&str, bool)], seconds: u32) -> Result<(bool, St
     let dictionary = found.join("words");
     let failed = |e: std::io::Error| format!("{}: {e}", found.display());
     fs::create_dir_all(&found).and_then(|()| fs::write(&dictionary, words())).map_err(failed)?;
-    let (mut passed, mut table) = (true, TABLE.to_owned());
-    for (target, reads_words) in targets {
-        let kept = found.join(target);
-        fs::create_dir_all(&kept).map_err(failed)?;
-        let mut command = Command::new(&tool);
-        command
-            .args(["run", "-O", "-s", "none", "--target-dir"])
-            .arg(root.join("target/fuzz"))
-            .arg(target)
-            .args([&kept, &root.join("fuzz/corpus").join(target)])
-            .arg("--")
-            .args(LIMITS)
-            .arg(format!("-max_total_time={seconds}"))
-            .arg(format!("-artifact_prefix={}/{target}-", found.display()))
-            .arg("-print_final_stats=1");
-        if *reads_words {
-            command.arg(format!("-dict={}", dictionary.display()));
-        }
-        let (good, row) = follow(command.current_dir(root.join("fuzz")), target)?;
-        passed &= good;
-        table.push_str(&row);
+    let cargo_fuzz = |command: &str| {
+        let mut start = Command::new(&tool);
+        start.args([command, "-O", "-s", "none", "--target-dir"]).arg(root.join("target/fuzz"));
+        start.current_dir(root.join("fuzz"));
+        start
+    };
+    let built = cargo_fuzz("build").status().map_err(|e| format!("cargo-fuzz: {e}"))?;
+    if !built.success() {
+        return Err("the fuzz targets cannot be built".to_owned());
     }
-    Ok((passed, table))
+    // As many at a time as there are processors.
+    let rows: Result<Vec<_>, String> = targets
+        .par_iter()
+        .map(|(target, reads_words)| {
+            let kept = found.join(target);
+            fs::create_dir_all(&kept).map_err(failed)?;
+            let mut command = cargo_fuzz("run");
+            command
+                .arg(target)
+                .args([&kept, &root.join("fuzz/corpus").join(target)])
+                .arg("--")
+                .args(LIMITS)
+                .arg(format!("-max_total_time={seconds}"))
+                .arg(format!("-artifact_prefix={}/{target}-", found.display()))
+                .arg("-print_final_stats=1");
+            if *reads_words {
+                command.arg(format!("-dict={}", dictionary.display()));
+            }
+            follow(&mut command, target)
+        })
+        .collect();
+    let (goods, table): (Vec<bool>, Vec<String>) = rows?.into_iter().unzip();
+    Ok((goods.into_iter().all(|good| good), TABLE.to_owned() + &table.concat()))
 }
 
 /// Shows what a run says, and makes a row of the table of it.
