@@ -6,12 +6,13 @@
 use std::io::Cursor;
 use std::path::Path;
 
+use kerrscope::light::Sheet;
 use kerrscope::output::{Provenance, exr, png};
 use kerrscope::scene::{Faults, Scene};
-use kerrscope::texture::Texture;
+use kerrscope::texture::{Sphere, Texture};
 
-/// Pixels up to which a picture is also made smaller; the rest of the time is better spent.
-const REDUCED_PIXELS: u32 = 1 << 16;
+/// Pixels up to which a mip map is made of a picture; above, the time is better spent otherwise.
+const MIPMAP_PIXELS: u32 = 1 << 16;
 
 /// A scene as text.
 pub fn scene(bytes: &[u8]) {
@@ -53,18 +54,22 @@ pub fn texture(bytes: &[u8]) {
     let Ok(texture) = Texture::decode(bytes) else {
         return;
     };
-    examine_texture(&texture);
-    if texture.width() * texture.height() <= REDUCED_PIXELS {
-        examine_texture(&texture.reduced(1));
+    for (u, v) in PLACES {
+        examine_sheet(&texture.sample(u, v, true));
+    }
+    if texture.width() * texture.height() <= MIPMAP_PIXELS {
+        let sphere = Sphere::new(texture);
+        for (u, v) in PLACES {
+            examine_sheet(&sphere.sample(u, v, 0.5));
+        }
     }
 }
 
-fn examine_texture(texture: &Texture) {
-    for (u, v) in [(0.0, 0.0), (0.3, 0.6), (1.0, 1.0)] {
-        let sheet = texture.sample_sphere(u, v);
-        assert!(sheet.light.rgb.iter().all(|light| light.is_finite() && *light >= 0.0), "{sheet:?}");
-        assert!((0.0..=1.0).contains(&sheet.opacity), "{sheet:?}");
-    }
+const PLACES: [(f64, f64); 3] = [(0.0, 0.0), (0.3, 0.6), (1.0, 1.0)];
+
+fn examine_sheet(sheet: &Sheet) {
+    assert!(sheet.light.rgb.iter().all(|light| light.is_finite() && *light >= 0.0), "{sheet:?}");
+    assert!((0.0..=1.0).contains(&sheet.opacity), "{sheet:?}");
 }
 
 /// A PNG or OpenEXR file with the record of how it was made, or that record as text.

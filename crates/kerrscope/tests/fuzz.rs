@@ -78,20 +78,20 @@ fn changed(seeds: &[Vec<u8>], seed: Index, changes: Vec<Change>) -> Vec<u8> {
 
 #[test]
 fn scene() {
-    run("scene", targets::scene, 20000);
+    run("scene", targets::scene, 50_000);
 }
 
 #[test]
 fn overrides() {
-    run("overrides", targets::overrides, 20000);
+    run("overrides", targets::overrides, 50_000);
 }
 
 #[test]
 fn texture() {
-    run("texture", targets::texture, 20000);
+    run("texture", targets::texture, 50_000);
 }
 
 #[test]
 fn provenance() {
-    run("provenance", targets::provenance, 20000);
+    run("provenance", targets::provenance, 50_000);
 }

@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 use exr::prelude::Compression;
 use kerrscope::output::png::read_provenance;
 use kerrscope::scene::Scene;
-use kerrscope::texture::Texture;
+use kerrscope::texture::{Sphere, Texture};
 
 /// The file that [`part`] reads.
 const VARIABLE: &str = "KERRSCOPE_TEST_FILE";
@@ -64,7 +64,8 @@ fn part() {
         }
         Some("record") => read_provenance(path).map(|made| made.to_string()).map_err(|e| e.to_string()),
         _ => Texture::load(path)
-            .map(|texture| format!("{}×{}", texture.width(), texture.height()))
+            .map(Sphere::new)
+            .map(|sphere| format!("{}×{}", sphere.levels()[0].width(), sphere.levels()[0].height()))
             .map_err(|e| e.fault.to_string()),
     };
     let outcome = outcome.unwrap_or_else(|fault| fault);
@@ -86,7 +87,6 @@ fn the_largest_pictures_are_read() {
     for (name, file, size) in [
         ("turned.png", bombs::png(16384, 8192), "8192×16384"),
         ("scans.jpg", bombs::jpeg(16384, 8192, 32), "8192×16384"),
-        ("transforms.webp", bombs::webp(16383, 8192), "16383×8192"),
         ("animated.webp", bombs::webp_animated(16383, 8192), "16383×8192"),
         ("float.tiff", bombs::tiff(8192, 8192, 1, float, &deep), "8192×8192"),
         ("runs.hdr", bombs::hdr(8192, 8192), "8192×8192"),
