@@ -5,11 +5,15 @@
 
 use fearless_simd::Simd;
 
-use super::kernel::{self, Meeting, Start, Tables};
+use super::course::{Class, Course, Kind};
+use super::distant::{self, Distant};
+use super::horizons::Horizons;
+use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::Photon;
-use super::polar::{Cosines, FEW, FEW_REACH, size_of_nome};
+use super::polar::{FEW, FEW_REACH, SOME, SOME_REACH, size_of_nome};
 use super::quadrature::Nodes;
-use super::radial::{Class, Course, Horizons, Kind};
+use super::radial::Sweep;
+use super::series::Cosines;
 use super::tracer::{PLANAR, TYPICAL_ERROR};
 use crate::geodesic::{Crossing, Fate, Path, Query, Ray, Side};
 use crate::lanes::{Lanes, OnLanes};
@@ -20,7 +24,7 @@ use crate::scalar::Scalar;
 const WIDTH: usize = 8;
 
 /// Rays sorted at once: enough that few lanes stay empty, few enough to stay in the cache.
-const MOST: usize = 4096;
+const MOST: usize = 1024;
 
 /// What all rays around one hole share.
 #[derive(Clone, Debug)]
@@ -33,8 +37,12 @@ pub struct Shared {
     pub nodes: Nodes,
     /// Nodes for the motions that are not factored.
     pub plain: Nodes,
-    /// The Fourier series' cosines.
-    pub cosines: Cosines<FEW>,
+    /// Cosines of the series of the motion in θ.
+    pub few: Cosines<FEW>,
+    /// The same for larger nomes.
+    pub some: Cosines<SOME>,
+    /// Cosines of the series of distant motion.
+    pub distant: Cosines<{ distant::TERMS }>,
 }
 
 /// Whether a ray can be traced in closed form.
@@ -48,12 +56,16 @@ struct Ready {
     /// Its number.
     ray: u32,
     /// λ, η, u, u′, μ, μ′; inwards, side, shape, lead, end; azimuth.
-    numbers: [f64; 12],
+    numbers: [f64; NUMBERS],
 }
 
-/// Rays of one kind and end.
+const NUMBERS: usize = 12;
+
+/// Rays that are followed alike.
 struct Group {
     kind: Kind,
+    /// Whether their motion in θ needs [`SOME`] terms.
+    far_from_circular: bool,
     escapes: bool,
     ready: Vec<Ready>,
 }
@@ -78,169 +90,306 @@ impl OnLanes for Batch<'_> {
     #[inline(always)]
     fn run<L: Simd>(self, simd: L) {
         let Self { shared, rays, query, paths, rest } = self;
-        for (paths, rays, first) in paths
-            .chunks_mut(MOST)
-            .zip(rays.chunks(MOST))
-            .enumerate()
-            .map(|(k, (paths, rays))| (paths, rays, k * MOST))
-        {
-            run(simd, shared, rays, query, paths, |ray| rest.push(first + ray));
+        let mut groups = Groups::new();
+        for first in (0..rays.len()).step_by(MOST) {
+            let range = first..rays.len().min(first + MOST);
+            groups.run(simd, shared, &rays[range.clone()], query, &mut paths[range], |ray| {
+                rest.push(first + ray);
+            });
         }
     }
 }
 
-#[inline(always)]
-fn run<L: Simd>(
-    simd: L,
-    shared: &Shared,
-    rays: &[Ray],
-    query: &Query,
-    paths: &mut [Path],
-    mut rest: impl FnMut(usize),
-) {
-    let kinds = [Kind::Plain, Kind::Factored, Kind::Spread];
-    let mut groups = kinds.map(|kind| {
-        [false, true].map(|escapes| Group { kind, escapes, ready: Vec::with_capacity(rays.len()) })
-    });
-    for first in (0..rays.len()).step_by(WIDTH) {
-        let count = WIDTH.min(rays.len() - first);
-        let ray = |lane: usize| &rays[first + lane.min(count - 1)];
-        let prepared = simd.vectorize(
-            #[inline(always)]
-            || prepare(simd, shared, ray),
-        );
-        for lane in 0..count {
-            if prepared.careful[lane] > 0.0 || !suits(&rays[first + lane]) {
-                rest(first + lane);
-                continue;
+struct Groups(Vec<Group>);
+
+impl Groups {
+    fn new() -> Self {
+        let mut groups = Vec::new();
+        for kind in Kind::ALL {
+            for escapes in [false, true] {
+                groups.push(Group { kind, far_from_circular: false, escapes, ready: Vec::new() });
             }
-            let path = &mut paths[first + lane];
-            path.clear();
-            path.error_estimate = TYPICAL_ERROR * prepared.sensitivity[lane];
-            let escapes = prepared.escapes[lane] > 0.0;
-            path.fate = if escapes { Fate::Escaped } else { Fate::Captured };
-            let kind =
-                if prepared.plain[lane] > 0.0 { 0 } else { 1 + usize::from(prepared.spread[lane] > 0.0) };
-            let numbers = prepared.numbers.map(|values| values[lane]);
-            groups[kind][usize::from(escapes)].ready.push(Ready { ray: (first + lane) as u32, numbers });
         }
+        for escapes in [false, true] {
+            groups.push(Group { kind: Kind::Plain, far_from_circular: true, escapes, ready: Vec::new() });
+        }
+        Self(groups)
     }
-    for group in groups.iter().flatten() {
-        match (group.kind, query.elapsed) {
-            (Kind::Plain, false) => follow::<L, true, false, false>(simd, shared, group, query, paths),
-            (Kind::Plain, true) => follow::<L, true, true, false>(simd, shared, group, query, paths),
-            (Kind::Factored, false) => follow::<L, false, false, false>(simd, shared, group, query, paths),
-            (Kind::Factored, true) => follow::<L, false, true, false>(simd, shared, group, query, paths),
-            (Kind::Spread, false) => follow::<L, false, false, true>(simd, shared, group, query, paths),
-            (Kind::Spread, true) => follow::<L, false, true, true>(simd, shared, group, query, paths),
+
+    /// The group of a kind, and of those whose motion in θ needs more terms.
+    fn of(&mut self, kind: Kind, far_from_circular: bool, escapes: bool) -> &mut Vec<Ready> {
+        let number = if far_from_circular { Kind::ALL.len() } else { kind as usize };
+        &mut self.0[2 * number + usize::from(escapes)].ready
+    }
+
+    #[inline(always)]
+    fn run<L: Simd>(
+        &mut self,
+        simd: L,
+        shared: &Shared,
+        rays: &[Ray],
+        query: &Query,
+        paths: &mut [Path],
+        mut rest: impl FnMut(usize),
+    ) {
+        for group in &mut self.0 {
+            group.ready.clear();
+        }
+        for first in (0..rays.len()).step_by(WIDTH) {
+            let count = WIDTH.min(rays.len() - first);
+            let prepared = simd.vectorize(
+                #[inline(always)]
+                || prepare(simd, shared, &rays[first..first + count]),
+            );
+            for lane in 0..count {
+                let is = |flags: &[f64; WIDTH]| flags[lane] > 0.0;
+                if is(&prepared.careful) || !suits(&rays[first + lane]) {
+                    rest(first + lane);
+                    continue;
+                }
+                let kind =
+                    Kind::of([&prepared.plain, &prepared.spread, &prepared.distant].map(is), query.elapsed);
+                if is(&prepared.wide) && kind != Kind::Plain {
+                    rest(first + lane);
+                    continue;
+                }
+                let path = &mut paths[first + lane];
+                path.clear();
+                path.error_estimate = TYPICAL_ERROR * prepared.sensitivity[lane];
+                let escapes = is(&prepared.escapes);
+                path.fate = if escapes { Fate::Escaped } else { Fate::Captured };
+                // Light that never meets the plane and falls in is known.
+                if is(&prepared.planar) {
+                    continue;
+                }
+                let mut numbers = [0.0; NUMBERS];
+                for (number, values) in numbers.iter_mut().zip(&prepared.numbers) {
+                    *number = values[lane];
+                }
+                self.of(kind, is(&prepared.wide), escapes)
+                    .push(Ready { ray: (first + lane) as u32, numbers });
+            }
+        }
+        for group in &self.0 {
+            let work = Work { shared, query, group };
+            match (group.kind, query.elapsed, group.far_from_circular) {
+                (Kind::Plain, false, false) => {
+                    work.sweep::<L, true, false, false, FEW>(simd, &shared.few, paths);
+                }
+                (Kind::Plain, true, false) => {
+                    work.sweep::<L, true, true, false, FEW>(simd, &shared.few, paths);
+                }
+                (Kind::Plain, false, true) => {
+                    work.sweep::<L, true, false, false, SOME>(simd, &shared.some, paths);
+                }
+                (Kind::Plain, true, true) => {
+                    work.sweep::<L, true, true, false, SOME>(simd, &shared.some, paths);
+                }
+                (Kind::Factored, false, _) => {
+                    work.sweep::<L, false, false, false, FEW>(simd, &shared.few, paths);
+                }
+                (Kind::Factored, true, _) => {
+                    work.sweep::<L, false, true, false, FEW>(simd, &shared.few, paths);
+                }
+                (Kind::Spread, false, _) => {
+                    work.sweep::<L, false, false, true, FEW>(simd, &shared.few, paths);
+                }
+                (Kind::Spread, true, _) => work.sweep::<L, false, true, true, FEW>(simd, &shared.few, paths),
+                (Kind::Distant, ..) => work.distant::<L>(simd, paths),
+            }
         }
     }
 }
 
-/// Eight rays, classified.
+/// Eight rays, classified; yes is 1, no is 0.
 struct Prepared {
-    numbers: [[f64; WIDTH]; 12],
+    numbers: [[f64; WIDTH]; NUMBERS],
     plain: [f64; WIDTH],
     spread: [f64; WIDTH],
+    distant: [f64; WIDTH],
     escapes: [f64; WIDTH],
     sensitivity: [f64; WIDTH],
+    /// Captured without meeting the plane.
+    planar: [f64; WIDTH],
+    /// Motion in θ of a large nome.
+    wide: [f64; WIDTH],
+    /// Not for lanes.
     careful: [f64; WIDTH],
 }
 
+/// Classifies up to eight rays; what is missing repeats the last.
 #[inline(always)]
-fn prepare<'a, L: Simd>(simd: L, shared: &Shared, ray: impl Fn(usize) -> &'a Ray) -> Prepared {
-    let of = |values: [f64; WIDTH]| Lanes::new(simd, values);
+fn prepare<L: Simd>(simd: L, shared: &Shared, rays: &[Ray]) -> Prepared {
+    let mut columns = [[0.0; WIDTH]; 10];
+    for lane in 0..WIDTH {
+        let Ray { start: Inverted { w, n, q, j }, energy, azimuth, .. } = rays[lane.min(rays.len() - 1)];
+        let row = [w, n[0], n[1], n[2], q, j[0], j[1], j[2], energy, azimuth];
+        for (column, value) in columns.iter_mut().zip(row) {
+            column[lane] = value;
+        }
+    }
+    let [w, nx, ny, nz, q, jx, jy, jz, energy, shown] = columns;
     let state = Inverted {
-        w: of(std::array::from_fn(|lane| ray(lane).start.w)),
-        n: std::array::from_fn(|i| of(std::array::from_fn(|lane| ray(lane).start.n[i]))),
-        q: of(std::array::from_fn(|lane| ray(lane).start.q)),
-        j: std::array::from_fn(|i| of(std::array::from_fn(|lane| ray(lane).start.j[i]))),
+        w: Lanes::new(simd, w),
+        n: [Lanes::new(simd, nx), Lanes::new(simd, ny), Lanes::new(simd, nz)],
+        q: Lanes::new(simd, q),
+        j: [Lanes::new(simd, jx), Lanes::new(simd, jy), Lanes::new(simd, jz)],
     };
-    let energy = of(std::array::from_fn(|lane| ray(lane).energy));
+    let energy = Lanes::new(simd, energy);
     let spin = energy.constant(shared.metric.spin());
     let photon = Photon::new(spin, energy, &state);
     let class = Class::of(&photon, energy.constant(shared.rim));
     let (zero, one) = (energy.constant(0.0), energy.constant(1.0));
     // Everything must hold; NaN holds nothing.
     let mut fine = Lanes::select(zero.less(energy), one, zero);
-    fine *= Lanes::select(zero.constant(PLANAR).less(photon.eta), one, zero);
+    let above = Lanes::select(zero.constant(PLANAR).less(photon.eta), one, zero);
+    let below = Lanes::select(photon.eta.less(zero.constant(-PLANAR)), one, zero);
+    let planar = below * (one - class.escapes);
+    fine *= above.max(planar);
     let nome = size_of_nome(&photon);
-    fine *= Lanes::select(nome.less(zero.constant(FEW_REACH)), one, zero);
+    fine *= Lanes::select(nome.less(zero.constant(SOME_REACH)), one, planar);
+    let wide = Lanes::select(nome.less(zero.constant(FEW_REACH)), zero, one - planar);
     // The axis, and rays that graze the critical curve by less than any digit.
     fine *= Lanes::select((photon.mu * photon.mu).less(one), one, zero);
     fine *= Lanes::select(class.sensitivity.less(zero.constant(1e12)), one, zero);
     let Course { inwards, side, shape, lead, end } = class.course;
     let Photon { lambda, eta, u, u_rate, mu, mu_rate, .. } = photon;
     // From the Kerr–Schild azimuth of n to that of Boyer and Lindquist, atan2(s, r) + tw before.
-    let shown = of(std::array::from_fn(|lane| ray(lane).azimuth));
-    let azimuth = shown - (spin * u).atan2(one) - Horizons::new(spin).twist(u);
-    let numbers = [lambda, eta, u, u_rate, mu, mu_rate, inwards, side, shape, lead, end, azimuth];
+    let azimuth = Lanes::new(simd, shown) - (spin * u).atan2(one) - Horizons::new(spin).twist(u);
     Prepared {
-        numbers: numbers.map(Lanes::to_array),
+        numbers: [
+            lambda.to_array(),
+            eta.to_array(),
+            u.to_array(),
+            u_rate.to_array(),
+            mu.to_array(),
+            mu_rate.to_array(),
+            inwards.to_array(),
+            side.to_array(),
+            shape.to_array(),
+            lead.to_array(),
+            end.to_array(),
+            azimuth.to_array(),
+        ],
         plain: class.plain.to_array(),
         spread: class.spread.to_array(),
+        distant: class.distant.to_array(),
         escapes: class.escapes.to_array(),
         sensitivity: class.sensitivity.to_array(),
+        planar: planar.to_array(),
+        wide: wide.to_array(),
         careful: (one - fine).to_array(),
     }
 }
 
-/// Follows a group, eight rays at a time.
-#[inline(always)]
-fn follow<L: Simd, const PLAIN: bool, const TIMED: bool, const SPREAD: bool>(
-    simd: L,
-    shared: &Shared,
-    group: &Group,
-    query: &Query,
-    paths: &mut [Path],
-) {
-    let nodes = if PLAIN { &shared.plain } else { &shared.nodes };
-    let tables = Tables { nodes, cosines: &shared.cosines };
-    for some in group.ready.chunks(WIDTH) {
-        let lane_of = |lane: usize| &some[lane.min(some.len() - 1)];
-        let number = |k: usize| Lanes::new(simd, std::array::from_fn(|lane| lane_of(lane).numbers[k]));
-        let photon = Photon {
-            spin: number(0).constant(shared.metric.spin()),
-            lambda: number(0),
-            eta: number(1),
-            u: number(2),
-            u_rate: number(3),
-            mu: number(4),
-            mu_rate: number(5),
-        };
-        let course = Course {
-            inwards: number(6),
-            side: number(7),
-            shape: number(8),
-            lead: number(9),
-            end: number(10),
-        };
-        let start = Start { photon, course, azimuth: number(11) };
-        let one = photon.spin.constant(1.0);
+/// A group to follow.
+struct Work<'a> {
+    shared: &'a Shared,
+    query: &'a Query,
+    group: &'a Group,
+}
+
+impl Work<'_> {
+    #[inline(always)]
+    fn distant<L: Simd>(&self, simd: L, paths: &mut [Path]) {
+        for some in self.group.ready.chunks(WIDTH) {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let start = self.start(simd, some);
+                    let radial = Distant::new(&start, &self.shared.distant);
+                    self.follow::<L, _, FEW, false>(some, &start, &radial, &self.shared.few, paths);
+                },
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn sweep<L: Simd, const PLAIN: bool, const TIMED: bool, const SPREAD: bool, const N: usize>(
+        &self,
+        simd: L,
+        cosines: &Cosines<N>,
+        paths: &mut [Path],
+    ) {
+        let nodes = if PLAIN { &self.shared.plain } else { &self.shared.nodes };
+        for some in self.group.ready.chunks(WIDTH) {
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let start = self.start(simd, some);
+                    let radial = Sweep::<_, PLAIN, TIMED>::new::<SPREAD>(&start, nodes);
+                    self.follow::<L, _, N, TIMED>(some, &start, &radial, cosines, paths);
+                },
+            );
+        }
+    }
+
+    /// Up to eight rays; what is missing repeats the last.
+    #[inline(always)]
+    fn start<L: Simd>(&self, simd: L, some: &[Ready]) -> Start<Lanes<L>> {
+        let mut columns = [[0.0; WIDTH]; NUMBERS];
+        for lane in 0..WIDTH {
+            for (column, value) in columns.iter_mut().zip(some[lane.min(some.len() - 1)].numbers) {
+                column[lane] = value;
+            }
+        }
+        let [lambda, eta, u, u_rate, mu, mu_rate, inwards, side, shape, lead, end, azimuth] = columns;
+        let lambda = Lanes::new(simd, lambda);
+        let spin = lambda.constant(self.shared.metric.spin());
+        Start {
+            photon: Photon {
+                spin,
+                lambda,
+                eta: Lanes::new(simd, eta),
+                u: Lanes::new(simd, u),
+                u_rate: Lanes::new(simd, u_rate),
+                mu: Lanes::new(simd, mu),
+                mu_rate: Lanes::new(simd, mu_rate),
+            },
+            course: Course {
+                inwards: Lanes::new(simd, inwards),
+                side: Lanes::new(simd, side),
+                shape: Lanes::new(simd, shape),
+                lead: Lanes::new(simd, lead),
+                end: Lanes::new(simd, end),
+            },
+            azimuth: Lanes::new(simd, azimuth),
+            horizons: Horizons::new(spin),
+        }
+    }
+
+    #[inline(always)]
+    fn follow<L: Simd, R: Radial<Lanes<L>>, const N: usize, const TIMED: bool>(
+        &self,
+        some: &[Ready],
+        start: &Start<Lanes<L>>,
+        radial: &R,
+        cosines: &Cosines<N>,
+        paths: &mut [Path],
+    ) {
+        let one = start.azimuth.constant(1.0);
         let meet = |meeting: &Meeting<Lanes<L>>| {
             let met = Lanes::select(meeting.met, one, one.constant(0.0)).to_array();
-            let [x, y] = meeting.position.map(Lanes::to_array);
-            let [r, phi, elapsed] = [meeting.r, meeting.phi, meeting.elapsed].map(Lanes::to_array);
+            let [x, y] = meeting.position;
+            let (x, y) = (x.to_array(), y.to_array());
+            let (r, phi, elapsed) =
+                (meeting.r.to_array(), meeting.phi.to_array(), meeting.elapsed.to_array());
             for (lane, ready) in some.iter().enumerate() {
                 if met[lane] > 0.0 {
                     paths[ready.ray as usize].crossings.push(Crossing {
                         position: [x[lane], y[lane], 0.0],
                         r: r[lane],
                         phi: phi[lane],
-                        elapsed: if TIMED { elapsed[lane] } else { f64::NAN },
+                        elapsed: elapsed[lane],
                     });
                 }
             }
         };
-        let direction = kernel::follow::<_, FEW, PLAIN, TIMED, SPREAD>(
-            &start,
-            &tables,
-            group.escapes,
-            query.max_crossings,
-            meet,
-        );
-        if group.escapes {
-            let [theta, phi] = direction.map(Lanes::to_array);
+        let count = self.query.max_crossings;
+        let [theta, phi] =
+            kernel::follow::<_, R, N, TIMED>(start, radial, cosines, self.group.escapes, count, meet);
+        if self.group.escapes {
+            let (theta, phi) = (theta.to_array(), phi.to_array());
             for (lane, ready) in some.iter().enumerate() {
                 paths[ready.ray as usize].direction = Some([theta[lane], phi[lane]]);
             }

@@ -11,11 +11,16 @@
 //! 2022, CQG 39, 225003 (radius by ℘).
 
 mod batch;
+mod course;
+mod distant;
+mod factors;
+mod horizons;
 mod kernel;
 mod photon;
 mod polar;
 mod quadrature;
 mod radial;
+mod series;
 mod tracer;
 mod vortical;
 mod weierstrass;

@@ -39,7 +39,8 @@ impl<S: Scalar> Photon<S> {
     pub fn new(spin: S, energy: S, state: &Inverted<S>) -> Self {
         let per_energy = energy.recip();
         let [nx, ny, nz] = state.n;
-        let [jx, jy, lambda] = state.j.map(|c| c * per_energy);
+        let [jx, jy, jz] = state.j;
+        let (jx, jy, lambda) = (jx * per_energy, jy * per_energy, jz * per_energy);
         let scaled = scaled_radius(spin, state);
         let per_scaled = scaled.recip();
         let mu = nz * per_scaled;

@@ -15,6 +15,7 @@
 use std::f64::consts::PI;
 
 use super::photon::{Photon, Potential};
+use super::series::{Cosines, Integral, cosines, sines};
 use crate::scalar::Scalar;
 
 /// Terms of the Fourier series that are enough up to |q| = [`FEW_REACH`].
@@ -23,37 +24,25 @@ pub const FEW: usize = 6;
 /// The largest |q| for [`FEW`] terms.
 pub const FEW_REACH: f64 = 0.02;
 
+/// Terms that are enough up to |q| = [`SOME_REACH`]: light that plunges with b ≲ 2 M.
+pub const SOME: usize = 16;
+
+/// The largest |q| for [`SOME`] terms.
+pub const SOME_REACH: f64 = 0.15;
+
 /// Terms that are enough for any photon: |q| nears 1 only for light that all but falls straight in.
 pub const MANY: usize = 160;
 
 /// Phases closer than this to the plane are in it.
 const NEAR: f64 = 1e-12;
 
-/// cos(πj/N) for j from 0 to 2N − 1.
-#[derive(Clone, Debug)]
-pub struct Cosines<const N: usize>([[f64; N]; 2]);
-
-impl<const N: usize> Cosines<N> {
-    /// The table.
-    pub fn new() -> Self {
-        let at = |j: usize| (PI * j as f64 / N as f64).cos();
-        Self([std::array::from_fn(at), std::array::from_fn(|j| at(j + N))])
-    }
-
-    #[inline(always)]
-    fn of(&self, j: usize) -> f64 {
-        let j = j % (2 * N);
-        self.0[j / N][j % N]
-    }
-}
-
 /// The oscillation of a photon.
 #[derive(Clone, Copy, Debug)]
 pub struct Oscillation<S, const N: usize> {
     /// w₊ = μ² at the turning points.
     pub reach: S,
-    /// ω.
-    pub rate: S,
+    /// ω and 1/ω.
+    pub rate: [S; 2],
     /// X₀, between −π and π.
     pub phase: S,
     /// |λ|, and λ's sign.
@@ -62,54 +51,11 @@ pub struct Oscillation<S, const N: usize> {
     root_b: S,
     /// 2qⁿ/(n(1 + q²ⁿ)).
     series: [S; N],
-    /// Of λs²/(√b(√A + √b)), and of s²μ².
-    azimuth: Cosine<S, N>,
-    height: Cosine<S, N>,
-    /// 𝒜(ψ₀), and the integrals of both series at X₀.
+    /// Integrals over 2X of λs²/(√b(√A + √b)), and of s²μ².
+    azimuth: Integral<S, N>,
+    height: Integral<S, N>,
+    /// 𝒜(ψ₀), and both integrals at X₀.
     start: [S; 3],
-}
-
-/// Σ aₖ cos 2kX, by its coefficients.
-#[derive(Clone, Copy, Debug)]
-struct Cosine<S, const N: usize> {
-    mean: S,
-    rest: [S; N],
-}
-
-impl<S: Scalar, const N: usize> Cosine<S, N> {
-    /// The series through values at X = jπ/(2N), j from 0 to N (a discrete cosine transform, DCT-I).
-    #[inline(always)]
-    fn through(values: &[S; N], last: S, cosines: &Cosines<N>) -> Self {
-        let coefficient = |k: usize| {
-            let mut sum = (values[0] + last * cosines.of(k * N)) * 0.5;
-            for (j, &value) in values.iter().enumerate().skip(1) {
-                sum = value.mul_add(value.constant(cosines.of(k * j)), sum);
-            }
-            sum * (2.0 / N as f64)
-        };
-        let halved = |k: usize| if k == N { 0.5 } else { 1.0 };
-        Self { mean: coefficient(0) * 0.5, rest: std::array::from_fn(|k| coefficient(k + 1) * halved(k + 1)) }
-    }
-
-    /// a₀X + Σ aₖ sin(2kX)/(2k), given sin 2X and cos 2X.
-    #[inline(always)]
-    fn integral(&self, x: S, (sin, cos): (S, S)) -> S {
-        let mut sum = self.mean * x;
-        multiples::<S, N>(sin, cos, |k, sin_k, _| {
-            sum = (self.rest[k] * (0.5 / (k + 1) as f64)).mul_add(sin_k, sum);
-        });
-        sum
-    }
-}
-
-/// sin and cos of (k + 1)α for k below N.
-#[inline(always)]
-fn multiples<S: Scalar, const N: usize>(sin: S, cos: S, mut each: impl FnMut(usize, S, S)) {
-    let (mut sin_k, mut cos_k) = (sin, cos);
-    for k in 0..N {
-        each(k, sin_k, cos_k);
-        (sin_k, cos_k) = (sin_k * cos + cos_k * sin, cos_k * cos - sin_k * sin);
-    }
 }
 
 /// m and k of a photon with η > 0.
@@ -141,10 +87,10 @@ pub fn size_of_nome<S: Scalar>(photon: &Photon<S>) -> S {
 #[inline(always)]
 fn mean_with_one<S: Scalar>(x: S, iterations: usize) -> S {
     let (mut a, mut g) = (x.constant(1.0), x);
-    for _ in 0..iterations {
+    for _ in 1..iterations {
         (a, g) = ((a + g) * 0.5, (a * g).sqrt());
     }
-    a
+    (a + g) * 0.5
 }
 
 /// The mean frequency ω of a photon with η ≥ 0.
@@ -154,9 +100,10 @@ pub fn frequency(photon: &Photon<f64>) -> f64 {
 }
 
 impl<S: Scalar, const N: usize> Oscillation<S, N> {
-    /// The oscillation of a photon with η > 0, w₊ > 0 and |q| within the reach of N terms.
+    /// The oscillation of a photon with η > 0, w₊ > 0 and |q| within the reach of N terms; with the integral of
+    /// s²μ² if `TIMED`.
     #[inline(always)]
-    pub fn new(photon: &Photon<S>, cosines: &Cosines<N>) -> Self {
+    pub fn new<const TIMED: bool>(photon: &Photon<S>, table: &Cosines<N>) -> Self {
         let Photon { spin, lambda, mu, mu_rate, .. } = *photon;
         let s2 = spin * spin;
         let [m, k] = modulus(photon);
@@ -169,104 +116,107 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
             q = l * (l4 * (l4 * 15.0 + 2.0) + 1.0);
         } else {
             // −q is the nome of the parameter k/(1 + k).
-            mean = mean_with_one(complement, 40);
+            let iterations = if N == SOME { 7 } else { 40 };
+            mean = mean_with_one(complement, iterations);
             let other = (k / (k + 1.0)).sqrt();
-            let ratio = mean_with_one(complement.recip(), 40) / mean_with_one(other, 40);
+            let ratio = mean_with_one(complement.recip(), iterations) / mean_with_one(other, iterations);
             q = -((ratio * -PI).exp());
         }
         let rate = m.sqrt() * mean;
+        let per_rate = rate.recip();
+        let zero = lambda.constant(0.0);
+        // 2qⁿ/(n(1 + q²ⁿ)), and twice n times it.
+        let (mut series, mut speeds) = ([zero; N], [zero; N]);
         let mut power = q;
-        let term = std::array::from_fn::<S, N, _>(|_| {
-            let term = power / (power * power + 1.0) * 2.0;
+        for n in 0..N {
+            let term = power * (power.mul_add(power, zero.constant(1.0))).recip();
+            series[n] = term * (2.0 / (n + 1) as f64);
+            speeds[n] = term * 4.0;
             power *= q;
-            term
-        });
-        let mut n = 0.0;
-        let series = term.map(|t| {
-            n += 1.0;
-            t / n
-        });
+        }
         let root_b = (m + s2).sqrt();
-        let speed = |j: usize| {
-            let mut sum = lambda.constant(1.0);
-            for (n, &t) in term.iter().enumerate() {
-                sum = t.mul_add(t.constant(2.0 * cosines.of((n + 1) * j)), sum);
-            }
-            rate * sum
-        };
-        let speeds: [S; N] = std::array::from_fn(speed);
-        let last = speed(N);
         let push = lambda * s2;
-        let smooth = |root_a: S| push / (root_b * (root_a + root_b));
-        let rise = |root_a: S| root_a * root_a - m;
-        let azimuth = Cosine::through(&speeds.map(smooth), smooth(last), cosines);
-        let height = Cosine::through(&speeds.map(rise), rise(last), cosines);
+        let (mut smooth, mut rise) = ([zero; N], [zero; N]);
+        let mut last = [zero; 2];
+        for j in 0..=N {
+            // √A at X = jπ/(2N).
+            let mut sum = zero.constant(1.0);
+            for n in 0..N {
+                sum = speeds[n].mul_add(zero.constant(table.of((n + 1) * j)), sum);
+            }
+            let root_a = rate * sum;
+            let pair = [push / (root_b * (root_a + root_b)), if TIMED { root_a * root_a - m } else { zero }];
+            if j < N { [smooth[j], rise[j]] = pair } else { last = pair }
+        }
+        let azimuth = Integral::through(&smooth, last[0], table);
+        let height = if TIMED { Integral::through(&rise, last[1], table) } else { azimuth };
 
         let sin = mu * (s2 * mu).mul_add(mu, m).sqrt();
         let psi = sin.atan2(mu_rate);
-        let zero = lambda.constant(0.0);
-        let sign = S::select(lambda.less(zero), lambda.constant(-1.0), lambda.constant(1.0));
-        let mut oscillation = Self {
-            reach: photon.eta / m,
-            rate,
-            phase: psi,
-            lambda: [lambda.abs(), sign],
-            root_b,
-            series,
-            azimuth,
-            height,
-            start: [(lambda.abs() * sin).atan2(root_b * mu_rate), zero, zero],
-        };
-        for _ in 0..if N == FEW { 3 } else { 60 } {
-            let (angle, slope) = oscillation.angle(oscillation.phase);
-            // Bounded: near |q| = 1 the slope varies over many orders of magnitude.
-            let step = (angle - psi) / slope;
-            oscillation.phase -= step.max(zero.constant(-0.5)).min(zero.constant(0.5));
+        let sign = S::select(lambda.less(zero), zero.constant(-1.0), zero.constant(1.0));
+        let mut phase = psi;
+        if N == FEW {
+            // X ≈ ψ − c₁ sin 2ψ is off by less than 2c₁², c₁ = 2q/(1 + q²).
+            let size = sin.mul_add(sin, mu_rate * mu_rate);
+            phase -= series[0] * sin * mu_rate * 2.0 / size.max(zero.constant(f64::MIN_POSITIVE));
         }
-        let double = (oscillation.phase * 2.0).sin_cos();
-        oscillation.start[1] = oscillation.azimuth.integral(oscillation.phase, double);
-        oscillation.start[2] = oscillation.height.integral(oscillation.phase, double);
-        oscillation
+        for _ in 0..Self::STEPS {
+            let (sin, cos) = (phase * 2.0).sin_cos();
+            let angle = phase + sines(&series, sin, cos);
+            let slope = cosines(&speeds, cos) + 1.0;
+            let step = (angle - psi) / slope;
+            // Bounded: near |q| = 1 the slope varies over many orders of magnitude.
+            phase -= step.max(zero.constant(-0.5)).min(zero.constant(0.5));
+            // Lanes all take the same steps, so that none depends on another.
+            if S::LANES == 1 && !S::any(zero.constant(1e-15).less(step.abs())) {
+                break;
+            }
+        }
+        let double = phase * 2.0;
+        let at = double.sin_cos();
+        let start = [
+            (lambda.abs() * sin).atan2(root_b * mu_rate),
+            azimuth.at(double, at) * 0.5,
+            if TIMED { height.at(double, at) * 0.5 } else { zero },
+        ];
+        let (lambda, rate) = ([lambda.abs(), sign], [rate, per_rate]);
+        Self { reach: photon.eta / m, rate, phase, lambda, root_b, series, azimuth, height, start }
     }
 
-    /// ψ and dψ/dX at X.
-    #[inline(always)]
-    fn angle(&self, x: S) -> (S, S) {
-        let (sin, cos) = (x * 2.0).sin_cos();
-        let (mut angle, mut slope) = (x, x.constant(1.0));
-        multiples::<S, N>(sin, cos, |k, sin_k, cos_k| {
-            angle = self.series[k].mul_add(sin_k, angle);
-            slope = (self.series[k] * (2.0 * (k + 1) as f64)).mul_add(cos_k, slope);
-        });
-        (angle, slope)
-    }
+    /// Steps of Newton's method for X₀.
+    const STEPS: usize = match N {
+        FEW => 2,
+        SOME => 5,
+        _ => 60,
+    };
 
     /// Mino time, azimuth and ∫s²μ²dτ from the start to where X = nπ, in the plane.
     #[inline(always)]
     pub fn crossing(&self, n: S) -> [S; 3] {
         let x = n * PI;
-        let per_rate = self.rate.recip();
-        let [_, sign] = self.lambda;
-        let azimuth = sign * (x - self.start[0]) + (self.azimuth.mean * x - self.start[1]) * per_rate;
-        [(x - self.phase) * per_rate, azimuth, (self.height.mean * x - self.start[2]) * per_rate]
+        let ([_, per_rate], [_, sign]) = (self.rate, self.lambda);
+        let azimuth = sign * (x - self.start[0]) + self.azimuth.mean.mul_add(x, -self.start[1]) * per_rate;
+        [(x - self.phase) * per_rate, azimuth, self.height.mean.mul_add(x, -self.start[2]) * per_rate]
     }
 
     /// The first n whose crossing lies ahead; that of a camera in the plane lies behind.
     #[inline(always)]
     pub fn first(&self) -> S {
         // ⌊X₀/π⌋ + 1: X₀ lies between −π and π.
-        let number = |n: f64| self.phase.constant(n);
-        let upper = S::select(self.phase.less(number(PI - NEAR)), number(1.0), number(2.0));
-        S::select(self.phase.less(number(-NEAR)), number(0.0), upper)
+        let phase = self.phase;
+        let behind = phase.less(phase.constant(PI - NEAR));
+        let upper = S::select(behind, phase.constant(1.0), phase.constant(2.0));
+        S::select(phase.less(phase.constant(-NEAR)), phase.constant(0.0), upper)
     }
 
     /// θ and azimuth after Mino time τ.
     #[inline(always)]
     pub fn at(&self, tau: S) -> [S; 2] {
-        let x = self.rate.mul_add(tau, self.phase);
-        let (sin, cos) = (x * 2.0).sin_cos();
-        let mut psi = x;
-        multiples::<S, N>(sin, cos, |k, sin_k, _| psi = self.series[k].mul_add(sin_k, psi));
+        let [rate, per_rate] = self.rate;
+        let x = rate.mul_add(tau, self.phase);
+        let double = x * 2.0;
+        let (sin, cos) = double.sin_cos();
+        let psi = x + sines(&self.series, sin, cos);
         let half_turns = (psi * (1.0 / PI)).round();
         let (sin_f, cos_f) = (half_turns.mul_add(psi.constant(-PI), psi)).sin_cos();
         // (−1)ⁿ.
@@ -274,7 +224,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
         let parity = -odd.abs() * 2.0 + 1.0;
         let [lambda, sign] = self.lambda;
         let turned = half_turns.mul_add(psi.constant(PI), (lambda * sin_f).atan2(self.root_b * cos_f));
-        let smooth = (self.azimuth.integral(x, (sin, cos)) - self.start[1]) / self.rate;
+        let smooth = (self.azimuth.at(double, (sin, cos)) * 0.5 - self.start[1]) * per_rate;
         let mu = self.reach.sqrt() * sin_f * parity;
         // 1 − μ² = w₊ cos²ψ + λ²/b, exact next to the poles.
         let narrow = lambda / self.root_b;

@@ -3,11 +3,15 @@
 use std::f64::consts::PI;
 
 use super::batch::{Batch, Shared, suits};
-use super::kernel::{self, Meeting, Radial, Start, Tables};
+use super::course::{Class, Kind};
+use super::distant::Distant;
+use super::horizons::Horizons;
+use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::Photon;
-use super::polar::{Cosines, FEW, FEW_REACH, MANY, frequency, size_of_nome};
+use super::polar::{FEW, FEW_REACH, MANY, SOME, SOME_REACH, frequency, size_of_nome};
 use super::quadrature::Nodes;
-use super::radial::{Class, Kind};
+use super::radial::Sweep;
+use super::series::Cosines;
 use super::vortical::Vortex;
 use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
 use crate::kerr::horizons;
@@ -53,7 +57,7 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// A tracer around a hole of spin a, with so many nodes in each quadrature (12 to 48 make sense);
+    /// A tracer around a hole of spin a, with so many nodes in each quadrature (16 to 48 make sense; 20 leave no error but rounding);
     /// what is left to an integrator has at most `max_steps` steps.
     pub fn new(spin: f64, nodes: usize, max_steps: usize) -> Self {
         let shared = Shared {
@@ -61,7 +65,9 @@ impl ClosedForm {
             rim: 1.0 / horizons(spin).0,
             nodes: Nodes::new(nodes),
             plain: Nodes::new(nodes.max(PLAIN_NODES)),
-            cosines: Cosines::new(),
+            few: Cosines::new(),
+            some: Cosines::new(),
+            distant: Cosines::new(),
         };
         let fallback = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps);
         Self { level: Level::best(), shared, many: Box::new(Cosines::new()), fallback }
@@ -77,46 +83,50 @@ impl ClosedForm {
         query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt() && query.points == 0
     }
 
-    fn follow<const PLAIN: bool, const TIMED: bool, const SPREAD: bool>(
+    /// Follows a photon whose radial motion is known.
+    fn follow<R: Radial<f64>, const TIMED: bool>(
         &self,
         start: &Start<f64>,
+        radial: &R,
         escapes: bool,
         count: usize,
         path: &mut Path,
     ) {
         let photon = &start.photon;
-        let nodes = if PLAIN { &self.shared.plain } else { &self.shared.nodes };
-        let mut meet = |meeting: &Meeting<f64>| {
+        path.fate = if escapes { Fate::Escaped } else { Fate::Captured };
+        let meet = |meeting: &Meeting<f64>| {
             path.crossings.push(Crossing {
                 position: [meeting.position[0], meeting.position[1], 0.0],
                 r: meeting.r,
                 phi: meeting.phi,
-                elapsed: if TIMED { meeting.elapsed } else { f64::NAN },
+                elapsed: meeting.elapsed,
             });
         };
+        let shared = &self.shared;
         let direction = if photon.eta <= PLANAR {
-            let radial = Radial::<f64, PLAIN, TIMED>::new::<SPREAD>(start, nodes);
+            if !escapes {
+                return;
+            }
             let tau = radial.total();
             let [theta, turned] = if photon.eta < -PLANAR {
-                Vortex::new(photon).at(tau, &self.shared.plain)
+                Vortex::new(photon).at(tau, &shared.plain)
             } else {
                 let sin2 = (1.0 - photon.mu * photon.mu).max(f64::MIN_POSITIVE);
                 [photon.mu.acos(), photon.lambda * tau / sin2]
             };
             [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
-        } else if size_of_nome(photon) <= FEW_REACH {
-            let tables = Tables { nodes, cosines: &self.shared.cosines };
-            kernel::follow::<_, FEW, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
         } else {
-            let tables = Tables { nodes, cosines: &*self.many };
-            kernel::follow::<_, MANY, PLAIN, TIMED, SPREAD>(start, &tables, escapes, count, &mut meet)
+            match size_of_nome(photon) {
+                ..=FEW_REACH => {
+                    kernel::follow::<_, R, FEW, TIMED>(start, radial, &shared.few, escapes, count, meet)
+                }
+                ..=SOME_REACH => {
+                    kernel::follow::<_, R, SOME, TIMED>(start, radial, &shared.some, escapes, count, meet)
+                }
+                _ => kernel::follow::<_, R, MANY, TIMED>(start, radial, &self.many, escapes, count, meet),
+            }
         };
-        if escapes {
-            path.fate = Fate::Escaped;
-            path.direction = Some(direction);
-        } else {
-            path.fate = Fate::Captured;
-        }
+        path.direction = escapes.then_some(direction);
     }
 }
 
@@ -131,15 +141,27 @@ impl Tracer for ClosedForm {
         let photon = Photon::new(metric.spin(), ray.energy, &ray.start);
         let class = Class::of(&photon, self.shared.rim);
         let offset = if photon.u > 0.0 { metric.azimuth_offset(1.0 / photon.u) } else { 0.0 };
-        let start = Start { photon, course: class.course, azimuth: ray.azimuth - offset };
+        let start = Start {
+            photon,
+            course: class.course,
+            azimuth: ray.azimuth - offset,
+            horizons: Horizons::new(metric.spin()),
+        };
         let (escapes, count) = (class.escapes > 0.0, query.max_crossings);
-        match (class.kind(), query.elapsed) {
-            (Kind::Plain, false) => self.follow::<true, false, false>(&start, escapes, count, path),
-            (Kind::Plain, true) => self.follow::<true, true, false>(&start, escapes, count, path),
-            (Kind::Factored, false) => self.follow::<false, false, false>(&start, escapes, count, path),
-            (Kind::Factored, true) => self.follow::<false, true, false>(&start, escapes, count, path),
-            (Kind::Spread, false) => self.follow::<false, false, true>(&start, escapes, count, path),
-            (Kind::Spread, true) => self.follow::<false, true, true>(&start, escapes, count, path),
+        let Shared { nodes, plain, distant, .. } = &self.shared;
+        macro_rules! follow {
+            ($timed:literal, $radial:expr) => {
+                self.follow::<_, $timed>(&start, &$radial, escapes, count, path)
+            };
+        }
+        match (class.kind(query.elapsed), query.elapsed) {
+            (Kind::Plain, false) => follow!(false, Sweep::<_, true, false>::new::<false>(&start, plain)),
+            (Kind::Plain, true) => follow!(true, Sweep::<_, true, true>::new::<false>(&start, plain)),
+            (Kind::Factored, false) => follow!(false, Sweep::<_, false, false>::new::<false>(&start, nodes)),
+            (Kind::Factored, true) => follow!(true, Sweep::<_, false, true>::new::<false>(&start, nodes)),
+            (Kind::Spread, false) => follow!(false, Sweep::<_, false, false>::new::<true>(&start, nodes)),
+            (Kind::Spread, true) => follow!(true, Sweep::<_, false, true>::new::<true>(&start, nodes)),
+            (Kind::Distant, _) => follow!(false, Distant::new(&start, distant)),
         }
         if query.windings {
             path.windings = windings(metric, ray.energy, &ray.start);
@@ -171,12 +193,12 @@ pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 
     }
     let photon = Photon::new(metric.spin(), energy, start);
     let class = Class::of(&photon, 1.0 / metric.horizon());
-    let start = Start { photon, course: class.course, azimuth: 0.0 };
+    let start = Start { photon, course: class.course, azimuth: 0.0, horizons: Horizons::new(metric.spin()) };
     let nodes = Nodes::new(PLAIN_NODES);
-    let tau = match class.kind() {
-        Kind::Plain => Radial::<f64, true, false>::new::<false>(&start, &nodes).total(),
-        Kind::Factored => Radial::<f64, false, false>::new::<false>(&start, &nodes).total(),
-        Kind::Spread => Radial::<f64, false, false>::new::<true>(&start, &nodes).total(),
+    let tau = match class.kind(true) {
+        Kind::Plain => Sweep::<_, true, false>::new::<false>(&start, &nodes).total(),
+        Kind::Factored => Sweep::<_, false, false>::new::<false>(&start, &nodes).total(),
+        Kind::Spread | Kind::Distant => Sweep::<_, false, false>::new::<true>(&start, &nodes).total(),
     };
     // Light that moves along a radius has no motion in θ.
     let radial = photon.lambda == 0.0 && photon.eta == 0.0;

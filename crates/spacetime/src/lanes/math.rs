@@ -115,6 +115,13 @@ impl<L: Simd> Lanes<L> {
         u64x8::splat(self.0.token(), bits)
     }
 
+    /// The nearest whole number for |x| below 2⁵¹; without the instruction for it the processor's own way is a
+    /// library call a lane.
+    #[inline(always)]
+    pub(super) fn nearest(self) -> Self {
+        (self + SHIFTER) - SHIFTER
+    }
+
     /// eˣ for x from −700 to 700; what is beyond is taken as these.
     #[inline(always)]
     pub(super) fn exponential(self) -> Self {

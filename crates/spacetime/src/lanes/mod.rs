@@ -155,7 +155,7 @@ impl<L: Simd> Scalar for Lanes<L> {
     }
     #[inline(always)]
     fn round(self) -> Self {
-        Self(self.0.round_ties_even())
+        self.nearest()
     }
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {

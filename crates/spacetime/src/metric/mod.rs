@@ -140,7 +140,11 @@ impl<S: Scalar> Inverted<S> {
     #[inline(always)]
     pub fn momentum(&self) -> Vec3<S> {
         let k = cross(&self.j, &self.n);
-        std::array::from_fn(|i| self.q.mul_add(self.n[i], self.w * k[i]))
+        [
+            self.q.mul_add(self.n[0], self.w * k[0]),
+            self.q.mul_add(self.n[1], self.w * k[1]),
+            self.q.mul_add(self.n[2], self.w * k[2]),
+        ]
     }
 }
 
