@@ -93,6 +93,13 @@ impl<S: Scalar> Factors<S> {
         let [q0, q1, q2] = self.quotient;
         u.mul_add(u.mul_add(q2, q1), q0)
     }
+
+    /// q₁ + 2q₂u.
+    #[inline(always)]
+    pub fn quotient_slope(&self, u: S) -> S {
+        let [_, q1, q2] = self.quotient;
+        q2.mul_add(u * 2.0, q1)
+    }
 }
 
 /// The zeros of U on both sides of where it is least, well apart: Newton's method from 1/√(−B), then on

@@ -7,7 +7,7 @@ use crate::scalar::Scalar;
 pub struct Horizons<S> {
     outer: S,
     inner: S,
-    /// r₊ − r₋, not zero, and its inverse.
+    /// r₊ − r₋ and its inverse, which is not needed where that is zero.
     gap: [S; 2],
     spin: S,
 }
@@ -18,12 +18,11 @@ impl<S: Scalar> Horizons<S> {
     pub fn new(spin: S) -> Self {
         let one = spin.constant(1.0);
         let square = ((one - spin) * (one + spin)).max(spin.constant(0.0));
-        // At |s| = 1 the logarithm below becomes −u/(1 − u), to 1e-14 with this gap.
-        let root = square.max(spin.constant(1e-14)).sqrt();
+        let root = square.sqrt();
         Self {
             outer: root + 1.0,
             inner: spin * spin / (root + 1.0),
-            gap: [root * 2.0, root.recip() * 0.5],
+            gap: [root * 2.0, root.max(spin.constant(1e-300)).recip() * 0.5],
             spin,
         }
     }
@@ -36,15 +35,16 @@ impl<S: Scalar> Horizons<S> {
         let inside = -(self.inner * u) + 1.0;
         let sum = outside + inside;
         let inverse = (inside * sum).recip();
-        // ln x loses digits near 1, far from the hole: there ln x = 2 artanh((x − 1)/(x + 1)).
-        let x = gap * u * inside * inverse;
-        let x2 = x * x;
+        // ln x loses digits near 1, far from the hole or where the horizons meet: there
+        // ln x = 2 artanh((x − 1)/(x + 1)).
+        let x = u * inside * inverse;
+        let x2 = (gap * x).squared();
         let mut series = x.constant(1.0 / 15.0);
         for k in (0..7).rev() {
             series = series.mul_add(x2, x.constant(1.0 / f64::from(2 * k + 1)));
         }
-        let near = (outside * sum * inverse).ln();
-        S::select(x.less(x.constant(0.1)), x * series * -2.0, near) * per_gap
+        let far = (outside * sum * inverse).ln() * per_gap;
+        S::select(x2.less(x.constant(0.01)), x * series * -2.0, far)
     }
 
     /// tw = s/(r₊ − r₋) ln((r − r₊)/(r − r₋)), 0 at infinity: the azimuth has its variation beside

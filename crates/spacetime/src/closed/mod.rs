@@ -26,5 +26,5 @@ mod vortical;
 mod weierstrass;
 
 pub use quadrature::Nodes;
-pub use tracer::ClosedForm;
 pub(crate) use tracer::windings;
+pub use tracer::{ClosedForm, NODES};

@@ -10,6 +10,9 @@ use super::quadrature::Nodes;
 use super::weierstrass;
 use crate::scalar::Scalar;
 
+/// |σ| below which the motion next to a turning point counts as uniform, to |σ|³.
+const NEAR_TURN: f64 = 3e-3;
+
 /// Integrals along a stretch of the radial motion.
 #[derive(Clone, Copy, Debug)]
 struct Integrals<S> {
@@ -64,6 +67,8 @@ pub struct Sweep<'a, S, const PLAIN: bool, const TIMED: bool> {
     /// Twist and delay at the start, and twice those at the turning point.
     twist: [S; 2],
     delay: [S; 2],
+    /// dσ/dτ at the turning point.
+    calm: S,
 }
 
 impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TIMED> {
@@ -95,6 +100,7 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             whole: Integrals::zero(zero),
             twist: [horizons.twist(from), if PLAIN { zero } else { horizons.twist(turn) * 2.0 }],
             delay: [zero; 2],
+            calm: if PLAIN { zero } else { factors.quotient_at(turn).abs().sqrt() },
         };
         if TIMED {
             sweep.delay = [horizons.delay(from), if PLAIN { zero } else { horizons.delay(turn) * 2.0 }];
@@ -104,10 +110,9 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             to = course.end;
             sweep.middle = (photon.u + to) * 0.5;
         } else {
-            let begin = sweep.parameter(photon.u);
-            // For cosh, before the turning point σ < 0.
-            sweep.from = S::select(course.shape.less(zero), begin * course.lead, begin);
-            to = sweep.parameter(course.end);
+            sweep.from = sweep.parameter_at(photon.u, photon.u_rate);
+            let rate = potential.at(course.end).max(zero).sqrt() * course.side;
+            to = sweep.parameter_at(course.end, rate);
             sweep.middle = sweep.from.max(zero).min(to);
         }
         sweep.first = sweep.stretch(sweep.from, sweep.middle);
@@ -128,6 +133,21 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
         let turned = S::select(late, first + here - turn, straight);
         let turned = S::select(lead.less(zero), turned, straight);
         S::select(shape.less(zero), turned, straight) * inwards
+    }
+
+    /// σ where u′ is `rate`, from u = c + κ d sinh σ or u′ = κ d sinh σ √q(u): so that no digits are lost
+    /// next to the turning point. arsinh x = sgn x ln(|x| + √(x² + 1)).
+    #[inline(always)]
+    fn parameter_at(&self, u: S, rate: S) -> S {
+        let Course { side, shape, .. } = self.start.course;
+        let zero = u.constant(0.0);
+        let turning = shape.less(zero);
+        let speed = S::select(turning, self.factors.quotient_at(u).sqrt(), u.constant(1.0));
+        let distance = S::select(turning, rate, u - self.factors.middle);
+        let x = side * distance / (self.factors.width * speed);
+        let size = x.abs();
+        let value = (size + size.mul_add(size, u.constant(1.0)).sqrt()).ln();
+        S::select(x.less(zero), -value, value)
     }
 
     /// σ ≥ 0 for cosh, σ for sinh, at u: arcosh x or arsinh x = sgn x ln(|x| + √(x² ∓ 1)),
@@ -168,23 +188,31 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             // Before the turning point cosh has its other branch.
             let before = S::select(lead.less(zero), -arc, arc);
             let before = S::select(late, arc, before);
-            S::select(shape.less(zero), before, arc)
+            // Next to it arcosh has lost half of the digits, but σ grows uniformly there.
+            let uniform = (tau - self.first.tau).mul_add(self.calm, self.middle);
+            let cosh = S::select(arc.less(arc.constant(NEAR_TURN)), uniform, before);
+            S::select(shape.less(zero), cosh, arc)
         };
         let mut found = begun.plus(self.stretch(from, sigma));
-        // One Newton step with the quadrature's own τ, so that the place is that of the integrals.
+        // One step of second order with the quadrature's own τ, so that the place is that of the integrals.
         let rest = tau - found.tau;
-        let (u, between);
+        let (u, between, root);
         if PLAIN {
             let speed = self.potential.at(sigma).max(zero).sqrt() * inwards;
             u = sigma + rest * (speed + rest * self.potential.half_slope(sigma) * 0.5);
             between = (sigma + u) * 0.5;
+            root = self.potential.at(between).max(zero).sqrt();
         } else {
-            let here = self.place(sigma);
-            let polished = rest.mul_add(self.factors.quotient_at(here).sqrt(), sigma);
-            u = self.place(polished);
+            let (here, slope) = self.place(sigma);
+            // σ′ = √q, σ″ = q′(u) (du/dσ)/2.
+            let bend = self.factors.quotient_slope(here) * slope * 0.25;
+            let speed = self.factors.quotient_at(here).sqrt();
+            let (there, other) = self.place(rest.mul_add(rest.mul_add(bend, speed), sigma));
+            u = there;
             between = (here + u) * 0.5;
+            // √U = |du/dσ| √q.
+            root = (slope.abs() + other.abs()) * 0.5 * speed;
         }
-        let root = self.potential.at(between).max(zero).sqrt();
         let [width, one] = [self.width(between, root), root + 1.0];
         let inverse = if TIMED { (width * one).recip() } else { width.recip() };
         let [per_width, per_one] = if TIMED { [inverse * one, inverse * width] } else { [inverse, zero] };
@@ -196,12 +224,14 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
         Point { u, late, found }
     }
 
-    /// u at σ.
+    /// u and du/dσ at σ.
     #[inline(always)]
-    fn place(&self, sigma: S) -> S {
+    fn place(&self, sigma: S) -> (S, S) {
         let Course { side, shape, .. } = self.start.course;
         let grow = sigma.exp();
-        (side * self.factors.width * 0.5).mul_add(grow - shape * grow.recip(), self.factors.middle)
+        let shrink = shape * grow.recip();
+        let scale = side * self.factors.width * 0.5;
+        (scale.mul_add(grow - shrink, self.factors.middle), scale * (grow + shrink))
     }
 
     /// P̂ + S, P̂ = 1 + (s² − sλ)u².

@@ -19,6 +19,9 @@ use crate::lanes::Level;
 use crate::metric::{Inverted, Kerr, Metric};
 use crate::tensor::dot;
 
+/// Nodes of quadratures that err by less than rounding does.
+pub const NODES: usize = 24;
+
 /// Nodes for the motions that are not factored.
 const PLAIN_NODES: usize = 32;
 
@@ -34,7 +37,7 @@ pub(super) const TYPICAL_ERROR: f64 = 1e-12;
 /// points are asked for, and planes other than the equator are left to an integrator.
 ///
 /// ```
-/// use kerrscope_spacetime::closed::ClosedForm;
+/// use kerrscope_spacetime::closed::{ClosedForm, NODES};
 /// use kerrscope_spacetime::geodesic::{Path, Query, Tracer};
 /// use kerrscope_spacetime::observer::impact_ray;
 ///
@@ -44,7 +47,7 @@ pub(super) const TYPICAL_ERROR: f64 = 1e-12;
 /// let beta = -(30.0 - (alpha * alpha - spin * spin) * inclination.cos().powi(2)).sqrt();
 /// let ray = impact_ray(Some(spin), inclination, f64::INFINITY, [alpha, beta])?;
 /// let mut path = Path::default();
-/// ClosedForm::new(spin, 16, 10_000).trace(&ray, &Query::default(), &mut path);
+/// ClosedForm::new(spin, NODES, 10_000).trace(&ray, &Query::default(), &mut path);
 /// assert!((path.crossings[0].r - 9.966537978).abs() < 1e-9);
 /// # Ok::<(), kerrscope_spacetime::observer::ObserverError>(())
 /// ```
@@ -57,8 +60,9 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// A tracer around a hole of spin a, with so many nodes in each quadrature (16 to 48 make sense; 20 leave no error but rounding);
-    /// what is left to an integrator has at most `max_steps` steps.
+    /// A tracer around a hole of spin a, with so many nodes in each quadrature: with [`NODES`] nothing but rounding
+    /// is left, with 12 errors of the direction are below 5·10⁻⁸. What is left to an integrator has at most
+    /// `max_steps` steps.
     pub fn new(spin: f64, nodes: usize, max_steps: usize) -> Self {
         let shared = Shared {
             metric: Kerr::new(-spin),
