@@ -8,7 +8,8 @@
 use crate::report::Failure;
 use crate::{Format, print, print_json};
 use cpu_time::ProcessTime;
-use kerrscope::render::instruction_level;
+
+use kerrscope::spacetime::Level;
 use kerrscope::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
 use kerrscope::spacetime::metric::{Kerr, Metric};
 use kerrscope::spacetime::observer::{Motion, Observer, Place};
@@ -174,7 +175,7 @@ fn row(
         engine: "integrator",
         method,
         tolerance,
-        simd: instruction_level(),
+        simd: Level::best().name(),
         threads,
         rays: rays.len(),
         captured: count(Fate::Captured),

@@ -17,6 +17,7 @@ mod trace;
 mod validate;
 
 use clap::{Parser, Subcommand, ValueEnum};
+use kerrscope::spacetime::Level;
 use report::Failure;
 use std::io::IsTerminal;
 use std::process::ExitCode;
@@ -122,6 +123,16 @@ fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
 fn parse_spin(text: &str) -> Result<f64, String> {
     let spin: f64 = text.parse().map_err(|_| "give a number from -1 to 1".to_owned())?;
     if (-1.0..=1.0).contains(&spin) { Ok(spin) } else { Err("a spin lies between -1 and 1".to_owned()) }
+}
+
+/// A level of vector instructions that this processor has, from the command line.
+fn parse_level(text: &str) -> Result<Level, String> {
+    let names: Vec<&str> = Level::ALL.into_iter().filter(|l| l.is_available()).map(Level::name).collect();
+    match Level::named(text) {
+        Some(level) if level.is_available() => Ok(level),
+        Some(_) => Err(format!("this processor does not have it: give {}", names.join(" or "))),
+        None => Err(format!("no instructions are called so: give {}", names.join(" or "))),
+    }
 }
 
 /// An inclination in degrees, from the command line.

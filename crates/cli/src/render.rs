@@ -7,8 +7,9 @@ use crate::{Format, print, print_json};
 use indicatif::ProgressBar;
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::output::Format as FileFormat;
-use kerrscope::render::{Film, Stage, Stopped, Watch, draw, instruction_level};
+use kerrscope::render::{Film, Stage, Stopped, Watch, draw};
 use kerrscope::scene::Scene;
+use kerrscope::spacetime::Level;
 use serde::Serialize;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -48,9 +49,12 @@ pub struct Arguments {
     /// there is none
     #[arg(long)]
     resume: bool,
-    /// What traces the rays (as --set render.engine=…)
+    /// What traces the rays (as --set render.engine=…): auto, closed-form or integrator
     #[arg(long, value_name = "ENGINE")]
     engine: Option<String>,
+    /// Vector instructions: baseline, avx2 or avx512; without it, the best that there are
+    #[arg(long, value_name = "LEVEL", value_parser = crate::parse_level)]
+    simd: Option<Level>,
     /// How to print what was done
     #[arg(long, value_enum, default_value_t)]
     format: Format,
@@ -68,6 +72,7 @@ struct Output {
     error_estimate: Option<f64>,
     error_estimate_99: Option<f64>,
     error_estimate_max: Option<f64>,
+    engine: &'static str,
     instruction_level: &'static str,
 }
 
@@ -83,9 +88,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         overrides.into_iter().filter_map(|(key, value)| Some(format!("{key}={}", value.as_ref()?)));
     let scene = arguments.source.load(overrides)?;
     let outputs = outputs(arguments)?;
-    let stage = Stage::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
+    let level = arguments.simd.unwrap_or_else(Level::best);
+    let stage = Stage::with_level(&scene, level).map_err(|e| Failure::Input(e.to_string()))?;
     info!(rays = stage.rays(), "scene ready");
-    let checkpoint = checkpoint(&scene, &outputs[0], arguments.resume)?;
+    let checkpoint = checkpoint(&scene, level, &outputs[0], arguments.resume)?;
     let film = draw_in_pool(&stage, checkpoint.as_ref(), arguments.threads, quiet)?;
     info!(given_up = film.tally.given_up, steps = film.tally.steps, "rays traced");
     for path in &outputs {
@@ -121,14 +127,19 @@ fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The checkpoint beside the first output; none if that is no ordinary file.
-fn checkpoint(scene: &Scene, output: &Path, resume: bool) -> Result<Option<Checkpoint>, Failure> {
+fn checkpoint(
+    scene: &Scene,
+    level: Level,
+    output: &Path,
+    resume: bool,
+) -> Result<Option<Checkpoint>, Failure> {
     if output.metadata().is_ok_and(|about| !about.is_file()) {
         return Ok(None);
     }
     let mut path = output.as_os_str().to_owned();
     path.push(".checkpoint");
     let path = Path::new(&path);
-    let identity = Identity::of_render(scene).map_err(|e| Failure::Input(e.to_string()))?;
+    let identity = Identity::of_render(scene, level).map_err(|e| Failure::Input(e.to_string()))?;
     let opened =
         if resume { Checkpoint::resume(path, &identity) } else { Checkpoint::start(path, &identity) };
     opened.map(Some).map_err(|error| match error {
@@ -188,7 +199,8 @@ fn report(
             error_estimate: tally.quantile(0.5),
             error_estimate_99: tally.quantile(0.99),
             error_estimate_max: tally.quantile(1.0).map(|_| tally.worst),
-            instruction_level: instruction_level(),
+            engine: stage.engine(),
+            instruction_level: film.level.name(),
         });
     }
     print(&format!(

@@ -8,12 +8,17 @@ use clap::ValueEnum;
 use kerrscope::camera::Camera;
 use kerrscope::render::{Sampler, tracer};
 use kerrscope::scene::Scene;
+use kerrscope::spacetime::Level;
+use kerrscope::spacetime::closed::{ClosedForm, NODES};
 use kerrscope::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
 use kerrscope::spacetime::kerr::{horizons, redshift_factor};
 use kerrscope::spacetime::metric::Kerr;
 use kerrscope::spacetime::observer::impact_ray;
 use serde::Serialize;
 use std::fmt::Write;
+
+/// Steps after which the ray of a hole without a scene is given up.
+const MAX_STEPS: usize = 100_000;
 
 /// The ray is that of a pixel of a scene, or that of impact parameters seen by a static
 /// observer. Lengths and times in M, angles in radians, in Boyer-Lindquist coordinates.
@@ -46,7 +51,7 @@ pub struct Arguments {
     /// Impact parameter along the projected spin axis, M
     #[arg(long, value_name = "M", value_parser = parse_finite, allow_hyphen_values = true, requires = "alpha")]
     beta: Option<f64>,
-    /// What traces the ray (as --set render.engine=…)
+    /// What traces the ray (as --set render.engine=…): auto, closed-form or integrator
     #[arg(long, value_name = "ENGINE")]
     engine: Option<String>,
     /// Crossings to list at most
@@ -126,7 +131,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ));
     }
     let mut path = Path::default();
-    shot.tracer.trace(&shot.ray, &query, &mut path);
+    shot.tracer.trace(&shot.ray, &Query { points: 0, ..query }, &mut path);
+    if points > 0 {
+        // Points are the integrator's; the rest is what the engine asked for says.
+        let mut way = Path::default();
+        shot.tracer.trace(&shot.ray, &query, &mut way);
+        path.points = way.points;
+    }
     match arguments.format {
         TraceFormat::Json => print_json(&output(&shot, &path, arguments.path.is_some())),
         TraceFormat::Text => print(&text(&output(&shot, &path, arguments.path.is_some()))),
@@ -153,7 +164,7 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
         camera.ray(x, y)
     };
     let ray = ray.map_err(|e| Failure::Input(e.to_string()))?;
-    Ok(Shot { spin, ray, tracer: tracer(&scene) })
+    Ok(Shot { spin, ray, tracer: tracer(&scene, Level::best()) })
 }
 
 /// A hole without a scene.
@@ -167,14 +178,21 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
                 .to_owned(),
         ));
     }
-    if let Some(engine) = arguments.engine.as_deref().filter(|e| !matches!(*e, "auto" | "integrator")) {
-        return Err(Failure::Input(format!("no engine is called {engine:?}: give auto or integrator")));
-    }
     let distance = arguments.distance.unwrap_or(1000.0);
     let ray = impact_ray(Some(spin), inclination.to_radians(), distance, [alpha, beta])
         .map_err(|e| Failure::Input(e.to_string()))?;
-    let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, 100_000);
-    Ok(Shot { spin: Some(spin), ray, tracer: Box::new(tracer) })
+    let tracer: Box<dyn Tracer> = match arguments.engine.as_deref() {
+        None | Some("auto" | "closed-form") => Box::new(ClosedForm::new(spin, NODES, MAX_STEPS)),
+        Some("integrator") => {
+            Box::new(Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, MAX_STEPS))
+        }
+        Some(engine) => {
+            return Err(Failure::Input(format!(
+                "no engine is called {engine:?}: give auto, closed-form or integrator"
+            )));
+        }
+    };
+    Ok(Shot { spin: Some(spin), ray, tracer })
 }
 
 /// The point of the picture that is asked for, in pixels.
@@ -227,7 +245,7 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
         g: shot.spin.and_then(|a| redshift_factor(a, c.r, conserved.lambda, energy)),
     });
     Output {
-        engine: if shot.spin.is_some() { "integrator" } else { "straight" },
+        engine: shot.tracer.name(),
         fate: fate(path.fate),
         conserved: Conserved { lambda: finite(conserved.lambda), eta: finite(conserved.eta) },
         crossings: crossings.collect(),

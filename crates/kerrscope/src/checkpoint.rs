@@ -23,13 +23,13 @@ use std::time::{Duration, Instant};
 use serde::{Deserialize, Serialize};
 
 use crate::output::FileError;
-use crate::render::instruction_level;
 use crate::scene::Scene;
+use crate::spacetime::Level;
 
 const MAGIC: &[u8; 8] = b"kerrscpt";
 
 /// Version of the file format, and of what the parts hold.
-const VERSION: u8 = 1;
+const VERSION: u8 = 2;
 
 /// Finished parts wait no longer than this for the next one before they are written.
 const PATIENCE: Duration = Duration::from_millis(500);
@@ -46,11 +46,12 @@ pub struct Identity {
 }
 
 impl Identity {
-    /// That of the work of drawing a scene: all of the scene, and the contents of its pictures.
+    /// That of the work of drawing a scene with a level of instructions: all of the scene, and the contents of its
+    /// pictures.
     ///
     /// # Errors
     /// If a picture cannot be read.
-    pub fn of_render(scene: &Scene) -> Result<Self, FileError> {
+    pub fn of_render(scene: &Scene, level: Level) -> Result<Self, FileError> {
         let mut hasher = blake3::Hasher::new();
         hasher.update(b"render\0").update(scene.to_toml().as_bytes());
         for path in scene.pictures() {
@@ -60,7 +61,7 @@ impl Identity {
         }
         Ok(Self {
             program: env!("CARGO_PKG_VERSION").to_owned(),
-            instruction_level: instruction_level().to_owned(),
+            instruction_level: level.name().to_owned(),
             work: *hasher.finalize().as_bytes(),
         })
     }

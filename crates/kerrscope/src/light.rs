@@ -1,5 +1,6 @@
 //! What light carries along a ray.
 
+use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul};
 
 /// Radiance in linear light: the primaries and white point of sRGB (Rec. 709, D65),
@@ -30,6 +31,12 @@ impl Add for Light {
 impl AddAssign for Light {
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
+    }
+}
+
+impl Sum for Light {
+    fn sum<I: Iterator<Item = Self>>(lights: I) -> Self {
+        lights.fold(Self::DARK, Add::add)
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::scene::Scene;
+use kerrscope::spacetime::Level;
 
 fn identity(work: u8) -> Identity {
     Identity { program: "1.2.3".into(), instruction_level: "baseline".into(), work: [work; 32] }
@@ -150,7 +151,10 @@ fn a_full_disk_is_an_error_that_names_the_file() {
 fn the_identity_of_a_render_is_all_that_it_depends_on() {
     let folder = tempfile::tempdir().unwrap();
     let picture = folder.path().join("sky.png");
-    let of = |text: &str| Identity::of_render(&Scene::from_toml(text, folder.path()).unwrap()).unwrap();
+    let of = |text: &str| {
+        let scene = Scene::from_toml(text, folder.path()).unwrap();
+        Identity::of_render(&scene, Level::Baseline).unwrap()
+    };
     assert_eq!(of(""), of("[spacetime]\nname = 'kerr'"));
     assert_ne!(of(""), of("spacetime.spin = 0.98"));
     assert_ne!(of(""), of("render.seed = 2"));

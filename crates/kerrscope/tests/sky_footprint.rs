@@ -92,7 +92,7 @@ fn around_the_shadow() -> Vec<[u32; 2]> {
 /// Light of pixels whose rays all look at the picture itself, not at its smaller levels.
 fn unfiltered(scene: &Scene, sky: &Panorama, pixels: &[[u32; 2]]) -> Vec<f64> {
     let camera = kerrscope::camera::Camera::new(scene).unwrap();
-    let (tracer, mut path) = (tracer(scene), Trajectory::default());
+    let (tracer, mut path) = (tracer(scene, kerrscope::spacetime::Level::best()), Trajectory::default());
     let render = &scene.render;
     let sampler = Sampler::new(render.samples, render.seed, render.jitter);
     let query = Query { max_crossings: 0, ..Query::default() };

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::FileError;
-use crate::render::instruction_level;
 use crate::scene::Scene;
+use crate::spacetime::Level;
 
 /// What is needed to make a file again.
 ///
@@ -65,13 +65,13 @@ pub enum ProvenanceFault {
 }
 
 impl Provenance {
-    /// That of files made of a scene by this program.
-    pub fn of(scene: &Scene) -> Self {
+    /// That of files made of a scene by this program with a level of instructions.
+    pub fn of(scene: &Scene, level: Level) -> Self {
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_toml: scene.to_toml(),
             seed: scene.render.seed,
-            instruction_level: instruction_level().to_owned(),
+            instruction_level: level.name().to_owned(),
         }
     }
 

@@ -3,6 +3,7 @@
 use super::layer::Channel;
 use super::tally::Tally;
 use super::tile::{Area, Tile};
+use crate::spacetime::Level;
 
 /// A picture in linear light, with data layers. Pixels go along the rows, the top row first.
 ///
@@ -20,6 +21,8 @@ pub struct Film {
     pub planes: Vec<Plane>,
     /// What is known of the rays.
     pub tally: Tally,
+    /// The instructions that they were traced with.
+    pub level: Level,
 }
 
 /// A data layer's numbers.
@@ -43,11 +46,11 @@ pub struct Moments {
 
 impl Film {
     /// A film without light.
-    pub fn blank([width, height]: [u32; 2], channels: &[Channel]) -> Self {
+    pub fn blank([width, height]: [u32; 2], channels: &[Channel], level: Level) -> Self {
         let area = width as usize * height as usize;
         let plane = |&channel| Plane { channel, values: vec![f32::NAN; area] };
         let planes = channels.iter().map(plane).collect();
-        Self { width, height, light: vec![[0.0; 3]; area], planes, tally: Tally::default() }
+        Self { width, height, light: vec![[0.0; 3]; area], planes, tally: Tally::default(), level }
     }
 
     /// The plane of a channel.
@@ -105,7 +108,7 @@ mod tests {
 
     #[test]
     fn moments_of_two_dots() {
-        let mut film = Film::blank([8, 4], &[]);
+        let mut film = Film::blank([8, 4], &[], Level::Baseline);
         assert!(film.moments(1.0).is_none());
         // At (1.5, 0.5) and (6.5, 0.5) from the top left: 5 apart, 1.5 above the middle.
         film.light[1] = [1.0; 3];

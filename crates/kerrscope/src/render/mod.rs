@@ -7,30 +7,21 @@ mod sampling;
 mod stage;
 mod tally;
 mod tile;
+mod tracer;
 
 pub use film::{Film, Moments, Plane};
 pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;
-pub use stage::{Replay, Stage, StageError, tracer};
+pub use stage::{Replay, Stage, StageError};
 pub use tally::Tally;
+pub use tracer::tracer;
 
 use crate::checkpoint::Checkpoint;
 use crate::output::FileError;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use tile::{Tile, Tiling};
-
-/// The instructions that the rays are traced with: part of what a picture depends on.
-pub const fn instruction_level() -> &'static str {
-    if cfg!(target_feature = "avx512f") {
-        "avx512"
-    } else if cfg!(target_feature = "avx2") {
-        "avx2"
-    } else {
-        "baseline"
-    }
-}
 
 /// What goes on beside the drawing of a picture.
 #[derive(Clone, Copy)]
@@ -79,7 +70,7 @@ pub enum Stopped {
 /// If it is stopped, or the checkpoint cannot be used. What was finished by then is in the checkpoint.
 pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
     let tiling = Tiling::new(stage.size(), stage.rays_per_pixel());
-    let mut film = Film::blank(stage.size(), stage.channels());
+    let mut film = Film::blank(stage.size(), stage.channels(), stage.level());
     let mut done = vec![false; tiling.count() as usize];
     if let Some(checkpoint) = watch.checkpoint {
         checkpoint.parts(|number, contents| {
@@ -94,16 +85,20 @@ pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
         (watch.progress)(film.tally.rays);
     }
     let film = Mutex::new(film);
+    // As many as there are threads, each used again and again.
+    let replays = Mutex::new(Vec::new());
     let outcome = (0..tiling.count()).into_par_iter().filter(|&n| !done[n as usize]).try_for_each(|number| {
         if watch.cancelled.load(Ordering::Relaxed) {
             return Err(Stopped::Cancelled);
         }
         let area = tiling.area(number);
-        let tile = Tile::draw(stage, area);
+        let mut replay = lock(&replays).pop().unwrap_or_default();
+        let tile = Tile::draw(stage, area, &mut replay);
+        lock(&replays).push(replay);
         if let Some(checkpoint) = watch.checkpoint {
             checkpoint.keep(number, &tile.encode())?;
         }
-        film.lock().unwrap_or_else(PoisonError::into_inner).place(&tile, area);
+        lock(&film).place(&tile, area);
         (watch.progress)(tile.tally.rays);
         Ok(())
     });
@@ -111,4 +106,8 @@ pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
         checkpoint.flush()?;
     }
     outcome.map(|()| film.into_inner().unwrap_or_else(PoisonError::into_inner))
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,15 +1,16 @@
 //! A scene made ready to be drawn: pictures loaded, camera and tracer set up.
 
 use super::probe::Probe;
+use super::tracer::tracer;
 use super::{Channel, Sampler, Tally};
 use crate::camera::Camera;
 use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::{Beam, Light};
-use crate::scene::{self, Method, Scene, ScreenKind, SkyPicture, Spacetime};
+use crate::scene::{self, Scene, ScreenKind, SkyPicture};
 use crate::sky::{Grid, Panorama, Sky, Stars, footprint};
-use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Straight, Tracer};
-use crate::spacetime::metric::{Kerr, Schwarzschild};
+use crate::spacetime::Level;
+use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use crate::spacetime::observer::ObserverError;
 use crate::texture::{Texture, TextureError};
 
@@ -26,6 +27,7 @@ pub struct Stage {
     /// Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
     pixel: f64,
     sampler: Sampler,
+    level: Level,
 }
 
 /// Why a scene cannot be made ready.
@@ -39,28 +41,43 @@ pub enum StageError {
     Observer(#[from] ObserverError),
 }
 
-/// What following one ray found; kept to save memory from ray to ray.
+/// Rays followed together: enough to fill vectors of a kind, few enough to stay in the cache.
+const BATCH: usize = 1024;
+
+/// Memory for rays and what is found along them, kept from batch to batch.
 #[derive(Clone, Debug, Default)]
 pub struct Replay {
-    /// The ray's path.
-    pub path: Path,
-    /// What the rays of a pixel see.
+    /// Points of the picture; and rays for those at which a photon can arrive.
+    points: Vec<[f64; 2]>,
+    rays: Vec<Ray>,
+    /// Whether there is a ray for a point.
+    arrives: Vec<bool>,
+    paths: Vec<Path>,
+    /// What the rays of some pixels see.
     views: Vec<View>,
 }
 
 /// What a ray sees: light gathered on its way, and the direction of the sky behind, if it sees it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 struct View {
     beam: Beam,
     sky: Option<[f64; 2]>,
 }
 
 impl Stage {
-    /// Makes a scene ready.
+    /// Makes a scene ready, for the best instructions that this processor has.
     ///
     /// # Errors
     /// If a picture cannot be read.
     pub fn new(scene: &Scene) -> Result<Self, StageError> {
+        Self::with_level(scene, Level::best())
+    }
+
+    /// Makes a scene ready, for the instructions of a level or the best below it that this processor has.
+    ///
+    /// # Errors
+    /// If a picture cannot be read.
+    pub fn with_level(scene: &Scene, level: Level) -> Result<Self, StageError> {
         let disk = scene.disk.as_ref().map(surface).transpose()?;
         let query = Query {
             plane: disk.as_ref().map_or([0.0, 0.0, 1.0], Disk::normal),
@@ -72,7 +89,8 @@ impl Stage {
             size: [scene.render.width, scene.render.height],
             samples: scene.render.samples,
             camera: Camera::new(scene)?,
-            tracer: tracer(scene),
+            tracer: tracer(scene, level),
+            level,
             probe: Probe::new(scene, &query),
             query,
             disk,
@@ -107,42 +125,92 @@ impl Stage {
         &self.camera
     }
 
+    /// The instructions that rays are traced with.
+    pub fn level(&self) -> Level {
+        self.level
+    }
+
+    /// What traces the rays: "closed-form", "integrator" or "straight".
+    pub fn engine(&self) -> &'static str {
+        self.tracer.name()
+    }
+
     /// The mean light of a pixel's rays.
-    pub fn pixel(&self, [x, y]: [u32; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
-        let number = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
+    pub fn pixel(&self, pixel: [u32; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
+        let mut light = Light::DARK;
+        self.pixels(std::iter::once(pixel), replay, tally, |seen| light = seen);
+        light
+    }
+
+    /// The mean light of each pixel's rays.
+    pub(super) fn pixels(
+        &self,
+        pixels: impl Iterator<Item = [u32; 2]>,
+        replay: &mut Replay,
+        tally: &mut Tally,
+        mut each: impl FnMut(Light),
+    ) {
         replay.views.clear();
-        for sample in 0..self.samples {
-            let [right, down] = self.sampler.place(number, sample);
-            let view = self.view([f64::from(x) + right, f64::from(y) + down], &mut replay.path, tally);
-            replay.views.push(view);
+        replay.points.clear();
+        for [x, y] in pixels {
+            let number = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
+            for sample in 0..self.samples {
+                let [right, down] = self.sampler.place(number, sample);
+                replay.points.push([f64::from(x) + right, f64::from(y) + down]);
+                if replay.points.len() == BATCH {
+                    self.view(replay, tally);
+                }
+            }
         }
+        self.view(replay, tally);
+        for views in replay.views.chunks(self.samples as usize) {
+            each(self.mean(views));
+        }
+    }
+
+    /// The mean light of a pixel whose rays see this.
+    fn mean(&self, views: &[View]) -> Light {
         let mut angle = self.pixel / f64::from(self.samples).sqrt();
         if let Sky::Panorama(_) = self.sky {
-            angle = footprint(replay.views.iter().filter_map(|view| view.sky), angle);
+            angle = footprint(views.iter().filter_map(|view| view.sky), angle);
         }
         let mut sum = Light::DARK;
-        for view in &replay.views {
+        for view in views {
             sum += self.light(view, angle);
         }
         sum * (1.0 / f64::from(self.samples))
     }
 
-    /// What the data layers say of a pixel: of the ray through its centre, in the order of
+    /// What the data layers say of pixels: of the ray through the centre of each, in the order of
     /// [`channels`](Self::channels).
-    pub fn probe<'a>(
-        &'a self,
-        [x, y]: [u32; 2],
-        replay: &'a mut Replay,
+    pub(super) fn probe(
+        &self,
+        pixels: impl Iterator<Item = [u32; 2]>,
+        replay: &mut Replay,
         tally: &mut Tally,
-    ) -> impl Iterator<Item = f32> + use<'a> {
-        let centre = [f64::from(x) + 0.5, f64::from(y) + 0.5];
-        let ray = self.follow(centre, self.probe.query(), &mut replay.path, tally);
-        self.probe.values(ray, &replay.path, self.disk.as_ref())
+        mut each: impl FnMut(usize, f32),
+    ) {
+        replay.points.clear();
+        replay.points.extend(pixels.map(|pixel| pixel.map(|edge| f64::from(edge) + 0.5)));
+        self.follow(self.probe.query(), replay, tally);
+        let mut followed = replay.rays.iter().zip(&replay.paths);
+        let nowhere = nowhere();
+        for arrives in &replay.arrives {
+            let found = if *arrives { followed.next() } else { None };
+            let (ray, path) = found.map_or((None, &nowhere), |(ray, path)| (Some(*ray), path));
+            for (channel, value) in self.probe.values(ray, path, self.disk.as_ref()).enumerate() {
+                each(channel, value);
+            }
+        }
     }
 
     /// The light that arrives at a point of the picture, from a pixel's angle of the sky.
     pub fn ray(&self, point: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
-        self.light(&self.view(point, &mut replay.path, tally), self.pixel)
+        replay.views.clear();
+        replay.points.clear();
+        replay.points.push(point);
+        self.view(replay, tally);
+        replay.views.iter().map(|view| self.light(view, self.pixel)).sum()
     }
 
     /// A view's light, if the ray stands for an angle on the sky.
@@ -151,9 +219,19 @@ impl Stage {
         view.beam.end(sky)
     }
 
-    /// What is seen at a point of the picture.
-    fn view(&self, point: [f64; 2], path: &mut Path, tally: &mut Tally) -> View {
-        self.follow(point, &self.query, path, tally);
+    /// Adds what is seen at the points of a replay to its views, and forgets the points.
+    fn view(&self, replay: &mut Replay, tally: &mut Tally) {
+        self.follow(&self.query, replay, tally);
+        let mut paths = replay.paths.iter();
+        for arrives in &replay.arrives {
+            let path = if *arrives { paths.next() } else { None };
+            replay.views.push(path.map_or(View { beam: Beam::new(), sky: None }, |path| self.seen(path)));
+        }
+        replay.points.clear();
+    }
+
+    /// What a ray with this path sees.
+    fn seen(&self, path: &Path) -> View {
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
             for crossing in &path.crossings {
@@ -166,37 +244,33 @@ impl Stage {
         View { beam, sky: path.direction.filter(|_| !beam.is_blocked()) }
     }
 
-    /// Follows the ray that arrives at a point of the picture.
-    fn follow(&self, [x, y]: [f64; 2], query: &Query, path: &mut Path, tally: &mut Tally) -> Option<Ray> {
-        let ray = self.camera.ray(x, y).ok();
-        if let Some(ray) = &ray {
-            self.tracer.trace(ray, query, path);
-        } else {
+    /// Follows the rays that arrive at the points of a replay.
+    fn follow(&self, query: &Query, replay: &mut Replay, tally: &mut Tally) {
+        let Replay { points, rays, arrives, paths, .. } = replay;
+        rays.clear();
+        arrives.clear();
+        for &[x, y] in &*points {
             // No photon with such impact parameters gets here: dark.
-            path.clear();
-            path.fate = Fate::Captured;
-            path.error_estimate = 0.0;
+            let ray = self.camera.ray(x, y).ok();
+            arrives.push(ray.is_some());
+            rays.extend(ray);
         }
-        tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
-        ray
+        if paths.len() < rays.len() {
+            paths.resize_with(rays.len(), Path::default);
+        }
+        self.tracer.trace_all(rays, query, &mut paths[..rays.len()]);
+        for path in &paths[..rays.len()] {
+            tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
+        }
+        for _ in rays.len()..points.len() {
+            tally.count(0, 0.0, false);
+        }
     }
 }
 
-/// The tracer that a scene asks for.
-pub fn tracer(scene: &Scene) -> Box<dyn Tracer> {
-    let render = &scene.render;
-    let tolerance = render.tolerance;
-    let scheme = match render.method {
-        Method::Rk4 => Scheme::Rk4 { step: render.step },
-        Method::Tsit5 => Scheme::Tsit5 { tolerance },
-        Method::Dop853 => Scheme::Dop853 { tolerance },
-    };
-    let steps = render.max_steps as usize;
-    match scene.spacetime {
-        Spacetime::Minkowski => Box::new(Straight),
-        Spacetime::Schwarzschild => Box::new(Integrator::new(Schwarzschild, scheme, steps)),
-        Spacetime::Kerr { spin } => Box::new(Integrator::new(Kerr::new(spin), scheme, steps)),
-    }
+/// The path of a photon that does not exist: no light.
+fn nowhere() -> Path {
+    Path { fate: Fate::Captured, error_estimate: 0.0, windings: f64::NAN, ..Path::default() }
 }
 
 fn linear(color: [f64; 3]) -> Light {

@@ -1,7 +1,6 @@
 //! Counts over the rays of a picture.
 
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// Counts over the rays of a picture.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
@@ -14,9 +13,14 @@ pub struct Tally {
     pub steps: u64,
     /// Largest error estimate; 0 if there are none.
     pub worst: f64,
-    /// Rays by the power of two of their error estimate: k holds 2^k to 2^(k+1).
-    octaves: BTreeMap<i16, u64>,
+    /// Rays by the power of two of their error estimate: number k holds 2^(k − 64) to 2^(k − 63), the first
+    /// all that is less, the last all that is more.
+    octaves: Vec<u64>,
 }
+
+/// Powers of two from 2⁻⁶⁴ to 2³¹.
+const OCTAVES: usize = 96;
+const LOWEST: i32 = -64;
 
 impl Tally {
     /// Counts a ray; `given_up` rays have no estimate.
@@ -28,8 +32,12 @@ impl Tally {
             return;
         }
         self.worst = self.worst.max(estimate);
-        let octave = estimate.max(f64::MIN_POSITIVE).log2().floor();
-        *self.octaves.entry(octave as i16).or_default() += 1;
+        if self.octaves.is_empty() {
+            self.octaves = vec![0; OCTAVES];
+        }
+        // The exponent of a positive number is that of the power of two below it.
+        let exponent = (estimate.abs().to_bits() >> 52) as i32 - 1023;
+        self.octaves[(exponent - LOWEST).clamp(0, OCTAVES as i32 - 1) as usize] += 1;
     }
 
     /// Adds the counts of other rays. The order does not matter.
@@ -38,19 +46,23 @@ impl Tally {
         self.given_up += other.given_up;
         self.steps += other.steps;
         self.worst = self.worst.max(other.worst);
-        for (&octave, count) in &other.octaves {
-            *self.octaves.entry(octave).or_default() += count;
+        if self.octaves.is_empty() {
+            self.octaves.clone_from(&other.octaves);
+        } else {
+            for (octave, count) in self.octaves.iter_mut().zip(&other.octaves) {
+                *octave += count;
+            }
         }
     }
 
     /// The error estimate that a share of the rays stays below, to within a factor of two
     /// (rounded up); none if every ray was given up on.
     pub fn quantile(&self, share: f64) -> Option<f64> {
-        let total: u64 = self.octaves.values().sum();
+        let total: u64 = self.octaves.iter().sum();
         let mut rest = share * total as f64;
-        self.octaves.iter().find_map(|(&octave, &count)| {
+        (LOWEST..).zip(&self.octaves).find_map(|(octave, &count)| {
             rest -= count as f64;
-            (rest <= 0.0).then(|| 2f64.powi(i32::from(octave) + 1))
+            (count > 0 && rest <= 0.0).then(|| 2f64.powi(octave + 1))
         })
     }
 }

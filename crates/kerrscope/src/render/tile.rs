@@ -62,25 +62,22 @@ impl Tiling {
 
 impl Tile {
     /// Draws a tile.
-    pub(super) fn draw(stage: &Stage, area: Area) -> Self {
-        let pixels = (area.width * area.height) as usize;
+    pub(super) fn draw(stage: &Stage, area: Area, replay: &mut Replay) -> Self {
+        let Area { left, top, width, height } = area;
+        let pixels = (width * height) as usize;
         let channels = stage.channels().len();
-        let mut replay = Replay::default();
+        let all = || (top..top + height).flat_map(|y| (left..left + width).map(move |x| [x, y]));
         let mut tally = Tally::default();
         let mut light = Vec::with_capacity(pixels);
         let mut values = vec![f32::NAN; channels * pixels];
-        for y in area.top..area.top + area.height {
-            for x in area.left..area.left + area.width {
-                if channels > 0 {
-                    let found = stage.probe([x, y], &mut replay, &mut tally);
-                    for (channel, value) in found.enumerate() {
-                        values[channel * pixels + light.len()] = value;
-                    }
-                }
-                let seen = stage.pixel([x, y], &mut replay, &mut tally);
-                light.push(seen.rgb.map(|c| c as f32));
-            }
+        if channels > 0 {
+            let mut pixel = 0;
+            stage.probe(all(), replay, &mut tally, |channel, value| {
+                values[channel * pixels + pixel] = value;
+                pixel += usize::from(channel + 1 == channels);
+            });
         }
+        stage.pixels(all(), replay, &mut tally, |seen| light.push(seen.rgb.map(|c| c as f32)));
         Self { light, values, tally }
     }
 

@@ -169,7 +169,7 @@ pub struct Render {
     pub seed: u64,
     /// Whether rays are spread by chance.
     pub jitter: bool,
-    /// What traces the rays.
+    /// What traces the rays; never [`Engine::Auto`].
     pub engine: Engine,
     /// Which method integrates them.
     pub method: Method,
@@ -188,11 +188,14 @@ pub struct Render {
 
 /// What traces rays.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "kebab-case")]
 pub enum Engine {
-    /// The fastest that can draw the scene.
+    /// The closed form where it can draw the scene and no other `method` than "dop853" is asked for; else
+    /// the integrator.
     #[default]
     Auto,
+    /// The closed form: Kerr and Schwarzschild holes with a disk in the equatorial plane or none.
+    ClosedForm,
     /// Numerical integration.
     Integrator,
 }

@@ -135,6 +135,10 @@ impl ClosedForm {
 }
 
 impl Tracer for ClosedForm {
+    fn name(&self) -> &'static str {
+        "closed-form"
+    }
+
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
         if !Self::answers(query) || !suits(ray) {
             self.fallback.trace(ray, query, path);

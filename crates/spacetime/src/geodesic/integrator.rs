@@ -227,6 +227,10 @@ impl<M: Metric> Integrator<M> {
 }
 
 impl<M: Metric> Tracer for Integrator<M> {
+    fn name(&self) -> &'static str {
+        "integrator"
+    }
+
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
         path.clear();
         match ray.side {

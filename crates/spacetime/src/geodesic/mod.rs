@@ -111,6 +111,9 @@ impl Path {
 
 /// A way to follow rays. Two independent ones for Kerr test each other.
 pub trait Tracer: Send + Sync {
+    /// What it is called: "closed-form", "integrator", "straight".
+    fn name(&self) -> &'static str;
+
     /// Follows `ray` into the past and replaces `path` with what it met.
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path);
 

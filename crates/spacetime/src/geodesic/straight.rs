@@ -9,6 +9,10 @@ use std::f64::consts::PI;
 pub struct Straight;
 
 impl Tracer for Straight {
+    fn name(&self) -> &'static str {
+        "straight"
+    }
+
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
         path.clear();
         path.fate = Fate::Escaped;

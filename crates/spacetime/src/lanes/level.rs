@@ -46,7 +46,12 @@ impl Level {
         }
     }
 
-    /// Its name.
+    /// That of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|level| level.name() == name)
+    }
+
+    /// Its name: "baseline", "avx2" or "avx512".
     pub const fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
@@ -97,6 +102,8 @@ mod tests {
     #[test]
     fn work_runs_at_the_level_asked_for() {
         assert!(Level::Baseline.is_available());
+        assert!(Level::ALL.into_iter().all(|level| Level::named(level.name()) == Some(level)));
+        assert_eq!(Level::named("avx"), None);
         for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
             let ran = level.run(Widest).to_lowercase();
             assert!(level == Level::Baseline || ran.contains(level.name()), "{ran} for {level:?}");

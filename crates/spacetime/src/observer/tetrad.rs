@@ -31,6 +31,8 @@ pub struct Observer {
     velocity: Vec4<f64>,
     /// e_r, e_θ, e_φ.
     axes: [Vec4<f64>; 3],
+    /// u, e_r, e_θ, e_φ with lower indices.
+    lowered: [Vec4<f64>; 4],
     side: Side,
     azimuth: f64,
 }
@@ -77,13 +79,10 @@ impl Observer {
         let g = metric.components(&position);
         let across = [0.0, -sin_azimuth, cos_azimuth, 0.0];
         let down = [0.0, width * cos * cos_azimuth, width * cos * sin_azimuth, -r * sin];
-        let frame = |velocity: Vec4<f64>| Self {
-            position,
-            metric: g,
-            velocity,
-            axes: axes(metric, &position, &g, &velocity, &down, &across),
-            side,
-            azimuth,
+        let frame = |velocity: Vec4<f64>| {
+            let axes = axes(metric, &position, &g, &velocity, &down, &across);
+            let lowered = [velocity, axes[0], axes[1], axes[2]].map(|v| contract(&g, &v));
+            Self { position, metric: g, velocity, axes, lowered, side, azimuth }
         };
         // Time runs backwards in the reversed spacetime, and so do velocities.
         let sense = if side == Side::Reversed { -1.0 } else { 1.0 };
@@ -138,10 +137,10 @@ impl Observer {
             Side::Reversed => 1.0,
             Side::Ingoing => -1.0,
         };
-        let momentum: Vec4<f64> = std::array::from_fn(|i| {
-            sign * self.velocity[i] + (0..3).map(|k| direction[k] * self.axes[k][i]).sum::<f64>()
-        });
-        let [t, x, y, z] = contract(&self.metric, &momentum);
+        let [u, e_r, e_theta, e_phi] = &self.lowered;
+        let [out, down, across] = direction;
+        let [t, x, y, z] =
+            std::array::from_fn(|i| sign * u[i] + out * e_r[i] + down * e_theta[i] + across * e_phi[i]);
         let mut ray = Ray::from_cartesian(&self.position, &[x, y, z], -t, self.side, self.azimuth);
         ray.aim_azimuth();
         ray

@@ -14,9 +14,9 @@ use kerrscope_spacetime::observer::Place;
 use serde::Serialize;
 
 use super::fault::{Collector, one_line};
-use super::file::{self, SceneFile, SpacetimeName};
+use super::file::{self, DiskModel, SceneFile, SpacetimeName};
 use super::tree::Node;
-use super::valid::{Method, Render, Spacetime};
+use super::valid::{Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
 use crate::render::Layer;
 
@@ -45,7 +45,7 @@ pub(super) fn build(
         screen: builder.screen(&file.screen, spacetime, observer),
         disk: builder.disk(&file.disk, spacetime),
         sky: builder.sky(&file.sky),
-        render: builder.render(&file.render, file.camera.display.layer, observer.place),
+        render: builder.render(&file, spacetime, observer.place),
         display: builder.display(&file.camera.display),
         file,
     }
@@ -98,7 +98,8 @@ impl Builder<'_> {
         spacetime
     }
 
-    fn render(&mut self, file: &file::Render, shown: Option<Layer>, place: Place) -> Render {
+    fn render(&mut self, scene: &SceneFile, spacetime: Spacetime, place: Place) -> Render {
+        let (file, shown) = (&scene.render, scene.camera.display.layer);
         let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
         if rays > MAX_RAYS {
@@ -128,19 +129,56 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
+        let engine = self.engine(scene, spacetime);
         Render {
             width: file.width,
             height: file.height,
             samples: file.samples,
             seed: file.seed,
             jitter: file.jitter,
-            engine: file.engine,
+            engine,
             method: file.method,
             tolerance: file.tolerance,
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
             layers: layers.into_iter().collect(),
+        }
+    }
+
+    /// The engine, chosen if the scene leaves it open.
+    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime) -> Engine {
+        let tilted = scene.disk.model != DiskModel::None && scene.disk.tilt != 0.0;
+        let method = scene.render.method;
+        let reason = if spacetime == Spacetime::Minkowski {
+            Some((
+                &["render.engine", "spacetime.name"][..],
+                "flat space has straight rays, not those of the closed form",
+                "remove `render.engine`",
+            ))
+        } else if tilted {
+            Some((
+                &["render.engine", "disk.tilt"][..],
+                "the closed form finds crossings of the equatorial plane only, and the disk is tilted",
+                "choose `render.engine = \"integrator\"`, or set `disk.tilt = 0`",
+            ))
+        } else if method != Method::Dop853 {
+            Some((
+                &["render.engine", "render.method"][..],
+                "the closed form does not integrate: `render.method` is for the integrator",
+                "choose `render.engine = \"integrator\"`, or remove `render.method`",
+            ))
+        } else {
+            None
+        };
+        match (scene.render.engine, reason) {
+            (Engine::ClosedForm, Some((keys, what, mend))) => {
+                self.fault(keys, what, mend);
+                Engine::Integrator
+            }
+            (Engine::Auto, None) => Engine::ClosedForm,
+            (Engine::Auto, Some(_)) => Engine::Integrator,
+            (engine, _) => engine,
         }
     }
 
