@@ -61,28 +61,59 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Texture, TextureFault> {
     let columns = places(0, corner.x(), window.position.x());
     let rows = places(1, corner.y(), window.position.y());
 
-    let reader = read()
-        .no_deep_data()
-        .largest_resolution_level()
-        .rgba_channels(
-            move |_, _| vec![f16::ZERO; small[0] * small[1] * channels],
-            move |texels: &mut Vec<f16>, at: Vec2<usize>, (r, g, b, a): (f32, f32, f32, f32)| {
-                let (Some((x, width)), Some((y, height))) = (columns[at.x()], rows[at.y()]) else {
-                    return;
-                };
-                let share = width * height;
-                let first = (y * small[0] + x) * channels;
-                for (texel, value) in texels[first..first + channels].iter_mut().zip([r, g, b, a]) {
-                    *texel = half(texel.to_f32() + bounded(value) * share);
-                }
-            },
-        )
-        .first_valid_layer()
-        .all_attributes();
-    let reader = if parallel { reader } else { reader.non_parallel() };
-    let image = reader.from_buffered(Cursor::new(bytes)).map_err(fault)?;
-    let texels = Texels::Half(image.layer_data.channel_data.pixels);
-    Ok(Texture { width: small[0] as u32, height: small[1] as u32, channels, texels })
+    let [width, height] = small;
+    let canvas = Canvas { width, height, channels, columns, rows };
+    let texels = if small == full {
+        canvas.read(bytes, parallel, f16::ZERO, |texel, value, _| *texel = half(value))?
+    } else {
+        // Sums in 32 bits lose nothing, and take no time to narrow and widen again.
+        let sums = canvas.read(bytes, parallel, 0.0, |sum: &mut f32, value, share| *sum += value * share)?;
+        sums.into_iter().map(half).collect()
+    };
+    Ok(Texture { width: width as u32, height: height as u32, channels, texels: Texels::Half(texels) })
+}
+
+/// What the pixels of a file are gathered on.
+struct Canvas {
+    width: usize,
+    height: usize,
+    channels: usize,
+    /// Where each column of the data belongs, and its share there; none outside the picture.
+    columns: Vec<Option<(usize, f32)>>,
+    rows: Vec<Option<(usize, f32)>>,
+}
+
+impl Canvas {
+    /// Reads the pixels of a file; `gather` is told a texel, a value for it, and its share in it.
+    fn read<T: Clone + 'static>(
+        self,
+        bytes: &[u8],
+        parallel: bool,
+        blank: T,
+        gather: impl Fn(&mut T, f32, f32) + 'static,
+    ) -> Result<Vec<T>, TextureFault> {
+        let Self { width, height, channels, columns, rows } = self;
+        let reader = read()
+            .no_deep_data()
+            .largest_resolution_level()
+            .rgba_channels(
+                move |_, _| vec![blank.clone(); width * height * channels],
+                move |texels: &mut Vec<T>, at: Vec2<usize>, (r, g, b, a): (f32, f32, f32, f32)| {
+                    let (Some((x, across)), Some((y, down))) = (columns[at.x()], rows[at.y()]) else {
+                        return;
+                    };
+                    let first = (y * width + x) * channels;
+                    for (texel, value) in texels[first..first + channels].iter_mut().zip([r, g, b, a]) {
+                        gather(texel, bounded(value), across * down);
+                    }
+                },
+            )
+            .first_valid_layer()
+            .all_attributes();
+        let reader = if parallel { reader } else { reader.non_parallel() };
+        let image = reader.from_buffered(Cursor::new(bytes)).map_err(fault)?;
+        Ok(image.layer_data.channel_data.pixels)
+    }
 }
 
 /// Refuses pictures that take too much memory or time, and tells whether there is memory to unpack

@@ -2,6 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use half::f16;
+use rayon::prelude::*;
+
 use super::{Texel, Texels, Texture, finite, half, mix, sheet};
 use crate::light::Sheet;
 
@@ -76,11 +79,12 @@ fn halved(texture: &Texture) -> Texture {
         _ => &[0, 1, 2, 3],
     };
     let columns: Vec<_> = (0..width).map(|x| shares(x, texture.width, width, |u| u)).collect();
-    let mut texels = Vec::with_capacity(width as usize * height as usize * channels.len());
-    for y in 0..height {
+    let line = width as usize * channels.len();
+    let mut texels = vec![f16::ZERO; line * height as usize];
+    texels.par_chunks_mut(line).zip(0..height).for_each(|(line, y)| {
         // Of a unit sphere, sin²(πv/2) lies above v.
         let rows = shares(y, texture.height, height, |v| (FRAC_PI_2 * v).sin().powi(2));
-        for columns in &columns {
+        for (texel, columns) in line.chunks_exact_mut(channels.len()).zip(&columns) {
             let mut sum = [0.0; 4];
             for &(y, part) in &rows {
                 for &(x, share) in columns {
@@ -88,9 +92,11 @@ fn halved(texture: &Texture) -> Texture {
                     sum = std::array::from_fn(|k| sum[k] + share * part * texel[k]);
                 }
             }
-            texels.extend(channels.iter().map(|&k| half(sum[k] as f32)));
+            for (value, &k) in texel.iter_mut().zip(channels) {
+                *value = half(sum[k] as f32);
+            }
         }
-    }
+    });
     Texture { width, height, channels: channels.len(), texels: Texels::Half(texels) }
 }
 
