@@ -7,7 +7,7 @@ use crate::{Format, print, print_json};
 use indicatif::ProgressBar;
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::output::Format as FileFormat;
-use kerrscope::render::{Film, Stage, Stopped, Watch, draw};
+use kerrscope::render::{Film, Interpolation as Interpolated, Stage, Stopped, Watch, draw};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
 use serde::Serialize;
@@ -65,6 +65,7 @@ struct Output {
     outputs: Vec<String>,
     wall_s: f64,
     rays: u64,
+    rays_traced: u64,
     rays_given_up: u64,
     total_flux_jy: Option<f64>,
     centroid: Option<[f64; 2]>,
@@ -72,8 +73,19 @@ struct Output {
     error_estimate: Option<f64>,
     error_estimate_99: Option<f64>,
     error_estimate_max: Option<f64>,
+    interpolation: Option<Interpolation>,
     engine: &'static str,
     instruction_level: &'static str,
+}
+
+/// How well an adaptive picture is interpolated; see [`kerrscope::render::Interpolation`].
+#[derive(Serialize)]
+struct Interpolation {
+    samples: u64,
+    compared: u64,
+    missed: u64,
+    error_max: f64,
+    error_target: f64,
 }
 
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
@@ -191,7 +203,8 @@ fn report(
         return print_json(&Output {
             outputs: names,
             wall_s,
-            rays: tally.rays,
+            rays: stage.rays(),
+            rays_traced: tally.rays,
             rays_given_up: tally.given_up,
             total_flux_jy: None,
             centroid: moments.map(|m| m.centroid),
@@ -199,6 +212,13 @@ fn report(
             error_estimate: tally.quantile(0.5),
             error_estimate_99: tally.quantile(0.99),
             error_estimate_max: tally.quantile(1.0).map(|_| tally.worst),
+            interpolation: stage.adaptive().map(|error_target| Interpolation {
+                samples: tally.interpolation.samples,
+                compared: tally.interpolation.compared,
+                missed: tally.interpolation.missed,
+                error_max: tally.interpolation.worst,
+                error_target,
+            }),
             engine: stage.engine(),
             instruction_level: film.level.name(),
         });
@@ -208,8 +228,16 @@ fn report(
         names.join(", "),
         film.width,
         film.height,
-        tally.rays
+        stage.rays()
     ))?;
+    let Interpolated { samples, compared, missed, worst } = tally.interpolation;
+    if samples > 0 {
+        let missed = if missed > 0 { format!(", but {missed} that end otherwise") } else { String::new() };
+        print(&format!(
+            "{} rays traced, {samples} interpolated; largest error {worst:.1e} in {compared} compared{missed}",
+            tally.rays
+        ))?;
+    }
     if tally.given_up > 0 {
         print(&format!(
             "{} rays were given up; what lies at their ends is missing. A larger render.max_steps follows most of them.",

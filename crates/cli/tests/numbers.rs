@@ -35,31 +35,35 @@ fn shadow() {
 
 #[test]
 fn a_ray_of_impact_parameters() {
-    let arguments = [
-        "trace",
-        "--spin",
-        "0.42",
-        "--inclination",
-        "60",
-        "--alpha",
-        "-17",
-        "--beta",
-        "0",
-        "--format",
-        "json",
-    ];
-    let value = here(&arguments);
-    assert_eq!((&value["engine"], &value["fate"]), (&"integrator".into(), &"escaped".into()));
-    near(&value["conserved"]["lambda"], 17.0 * 60f64.to_radians().sin(), 1e-12);
-    near(&value["conserved"]["eta"], (289.0 - 0.42 * 0.42) * 0.25, 1e-10);
-    let crossing = &value["crossings"][0];
-    let (r, phi) = (crossing["r"].as_f64().unwrap(), crossing["phi"].as_f64().unwrap());
-    assert!((r * phi.cos() + 0.0522336).abs() < 1e-6 && (r * phi.sin() + 16.0342).abs() < 1e-4);
-    // The light left before it arrived, by about the distance.
-    let t = crossing["t"].as_f64().unwrap();
-    assert!((900.0..1100.0).contains(&t), "{t}");
-    assert!(crossing["g"].as_f64().unwrap() > 1.0, "the left side approaches");
-    assert!(value["direction"]["theta"].is_number());
+    for engine in ["closed-form", "integrator"] {
+        let arguments = [
+            "trace",
+            "--engine",
+            engine,
+            "--spin",
+            "0.42",
+            "--inclination",
+            "60",
+            "--alpha",
+            "-17",
+            "--beta",
+            "0",
+            "--format",
+            "json",
+        ];
+        let value = here(&arguments);
+        assert_eq!((&value["engine"], &value["fate"]), (&engine.into(), &"escaped".into()));
+        near(&value["conserved"]["lambda"], 17.0 * 60f64.to_radians().sin(), 1e-12);
+        near(&value["conserved"]["eta"], (289.0 - 0.42 * 0.42) * 0.25, 1e-10);
+        let crossing = &value["crossings"][0];
+        let (r, phi) = (crossing["r"].as_f64().unwrap(), crossing["phi"].as_f64().unwrap());
+        assert!((r * phi.cos() + 0.0522336).abs() < 1e-6 && (r * phi.sin() + 16.0342).abs() < 1e-4);
+        // The light left before it arrived, by about the distance.
+        let t = crossing["t"].as_f64().unwrap();
+        assert!((900.0..1100.0).contains(&t), "{t}");
+        assert!(crossing["g"].as_f64().unwrap() > 1.0, "the left side approaches");
+        assert!(value["direction"]["theta"].is_number());
+    }
 }
 
 #[test]
@@ -142,7 +146,7 @@ fn a_path_in_four_formats() {
 
 #[test]
 fn a_pixel_of_a_scene() {
-    let value = here(&["trace", "--pixel", "480,270", "--format", "json"]);
+    let value = here(&["trace", "--pixel", "480,270", "--engine", "integrator", "--format", "json"]);
     assert!(value["steps"].as_u64().unwrap() > 3);
     let centre = here(&["trace", "--pixel", "10,20", "--sample", "3", "--format", "json"]);
     assert_eq!(centre["fate"], "escaped");

@@ -63,12 +63,57 @@ fn json_names_what_was_done() {
     let estimate = value["error_estimate"].as_f64().unwrap();
     assert!((1e-13..1e-7).contains(&estimate), "{estimate:e}");
     assert!(value["centroid"][0].is_number() && value["size"][1].is_number());
+    assert_eq!((&value["rays_traced"], &value["interpolation"]), (&value["rays"], &serde_json::Value::Null));
+}
+
+#[test]
+fn an_adaptive_picture_says_how_good_it_is() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = ["render", "-o", "a.png", "--set", "render.width=192", "--set", "render.height=108"];
+    let value = json(folder.path(), &[&arguments[..], &["--format", "json"]].concat());
+    let found = &value["interpolation"];
+    assert_eq!((&value["rays"], &found["error_target"]), (&(192 * 108 * 4).into(), &1e-4.into()));
+    assert!(value["rays_traced"].as_u64() < value["rays"].as_u64());
+    assert!(found["compared"].as_u64().unwrap() > 3000 && found["samples"].as_u64().unwrap() > 40_000);
+    let made = read_provenance(&folder.path().join("a.png")).unwrap().interpolation.unwrap();
+    assert_eq!(found["error_max"], made.worst);
+    assert!(made.worst > 0.0 && made.worst < 1e-4, "{:e}", made.worst);
+    // In words too, and the same bytes for any number of threads.
+    for threads in ["1", "3"] {
+        let output = run(folder.path(), &[&arguments[..], &["-o", "b.png", "--threads", threads]].concat());
+        assert!(String::from_utf8_lossy(&output.stdout).contains("interpolated; largest error"));
+        let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+        assert!(bytes("a.png") == bytes("b.png"), "{threads} threads");
+    }
+}
+
+#[test]
+fn engines_and_instructions_can_be_chosen() {
+    let folder = tempfile::tempdir().unwrap();
+    let best = kerrscope::spacetime::Level::best().name();
+    for (arguments, engine, level) in [
+        (&[][..], "closed-form", best),
+        (&["--engine", "integrator"], "integrator", best),
+        (&["--engine", "closed-form", "--simd", "baseline"], "closed-form", "baseline"),
+        (&["--simd", best], "closed-form", best),
+    ] {
+        let value = json(folder.path(), &small(&[&["--format", "json"], arguments].concat()));
+        assert_eq!((&value["engine"], &value["instruction_level"]), (&engine.into(), &level.into()));
+        let made = read_provenance(&folder.path().join("kerrscope.png")).unwrap();
+        assert_eq!(made.instruction_level, level);
+    }
+    let output = run(folder.path(), &small(&["--simd", "mmx"]));
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("baseline"));
 }
 
 #[test]
 fn rays_that_are_given_up_have_no_error_estimate() {
     let folder = tempfile::tempdir().unwrap();
-    let value = json(folder.path(), &small(&["--format", "json", "--set", "render.max_steps=3"]));
+    let value = json(
+        folder.path(),
+        &small(&["--format", "json", "--engine", "integrator", "--set", "render.max_steps=3"]),
+    );
     assert_eq!(value["rays_given_up"], value["rays"]);
     assert!(value["error_estimate"].is_null() && value["error_estimate_max"].is_null());
 }

@@ -29,7 +29,7 @@ use crate::spacetime::Level;
 const MAGIC: &[u8; 8] = b"kerrscpt";
 
 /// Version of the file format, and of what the parts hold.
-const VERSION: u8 = 2;
+const VERSION: u8 = 3;
 
 /// Finished parts wait no longer than this for the next one before they are written.
 const PATIENCE: Duration = Duration::from_millis(500);

@@ -249,6 +249,7 @@ fn a_saved_chart_has_the_colours_of_the_map() {
         version: "0".into(),
         seed: 0,
         instruction_level: String::new(),
+        interpolation: None,
         scene_toml: String::new(),
     };
     let mut file = Vec::new();

@@ -57,7 +57,7 @@ fn the_reference_implementation_reads_every_bit() {
     }
     let text = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     assert!(text("comments.txt").contains("n2.phi: azimuth φ, image order 2 [rad]"));
-    assert_eq!(text("kerrscope.txt").parse(), Ok(Provenance::of(&scene, film.level)));
+    assert_eq!(text("kerrscope.txt").parse(), Ok(Provenance::of(&scene, &film)));
 }
 
 #[test]
@@ -69,7 +69,7 @@ fn the_same_picture_is_the_same_bytes_and_says_how_it_was_made() {
         Format::of(path).unwrap().write(path, &scene, &film).unwrap();
     }
     assert!(fs::read(&a).unwrap() == fs::read(&b).unwrap());
-    assert_eq!(Format::Exr.read_provenance(&a).unwrap(), Provenance::of(&scene, film.level));
+    assert_eq!(Format::Exr.read_provenance(&a).unwrap(), Provenance::of(&scene, &film));
     fs::write(&a, b"v/1\x01 no").unwrap();
     let message = Format::Exr.read_provenance(&a).unwrap_err().to_string();
     assert!(message.contains("a.exr"), "{message}");

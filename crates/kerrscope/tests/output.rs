@@ -6,6 +6,7 @@ use std::time::Instant;
 use kerrscope::display::{Depth, Picture};
 use kerrscope::output::png::{self, read_provenance};
 use kerrscope::output::{Provenance, ProvenanceFault};
+use kerrscope::render::Interpolation;
 use proptest::prelude::*;
 
 fn provenance() -> Provenance {
@@ -13,7 +14,8 @@ fn provenance() -> Provenance {
         version: "1.2.3".into(),
         scene_toml: "# ünïcode 黒い穴 🕳\n[spacetime]\nspin = 0.99\n#\nx = 'y'\n".into(),
         seed: u64::MAX,
-        instruction_level: "AVX-512".into(),
+        instruction_level: "avx512".into(),
+        interpolation: Some(Interpolation { samples: 1 << 40, compared: 9_990, missed: 3, worst: 8.1e-5 }),
     }
 }
 
@@ -141,9 +143,12 @@ proptest! {
     #[test]
     fn any_text_survives_as_provenance(
         version in any::<String>(), scene_toml in any::<String>(),
-        seed in any::<u64>(), instruction_level in any::<String>()
+        seed in any::<u64>(), instruction_level in any::<String>(),
+        counts in proptest::option::of(any::<(u64, u64, u64)>()), worst in 0.0..1e300_f64
     ) {
-        let made = Provenance { version, scene_toml, seed, instruction_level };
+        let interpolation =
+            counts.map(|(samples, compared, missed)| Interpolation { samples, compared, missed, worst });
+        let made = Provenance { version, scene_toml, seed, instruction_level, interpolation };
         prop_assert_eq!(made.to_string().parse::<Provenance>(), Ok(made));
     }
 }

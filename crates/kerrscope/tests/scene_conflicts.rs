@@ -359,3 +359,23 @@ fn impact_parameters_are_a_static_observers() {
     assert!(faults[0].message.contains("static observer"));
     assert_eq!(faults[0].line_column(), Some((2, 10)));
 }
+
+#[test]
+fn the_closed_form_is_for_equatorial_disks_around_holes() {
+    let engine = "render.engine = \"closed-form\"\n";
+    for (rest, what, mend) in [
+        (
+            "spacetime.name = \"minkowski\"\ndisk.inner = 6",
+            "flat space has straight rays",
+            "remove `render.engine`",
+        ),
+        ("disk.tilt = 5", "the disk is tilted", "set `disk.tilt = 0`"),
+        ("render.method = \"tsit5\"", "does not integrate", "or remove `render.method`"),
+    ] {
+        let faults = faults(&format!("{engine}{rest}"));
+        assert_eq!(faults.len(), 1, "{faults}");
+        assert!(faults[0].message.contains(what), "{faults}");
+        assert!(faults[0].help.contains(mend), "{}", faults[0].help);
+        assert_eq!(faults[0].line_column(), Some((1, 17)));
+    }
+}

@@ -159,7 +159,7 @@ fn every_key() {
     let s = read(
         "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\
          engine = \"integrator\"\nmethod = \"rk4\"\ntolerance = 1e-14\nstep = 1\nmax_steps = 1000000\n\
-         max_crossings = 64\nlayers = [\"g\", \"fate\", \"g\"]\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
+         max_crossings = 64\nadaptive = true\nadaptive_error = 1e-6\nlayers = [\"g\", \"fate\", \"g\"]\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
     );
     assert_eq!(
         s.render,
@@ -175,6 +175,7 @@ fn every_key() {
             step: 1.0,
             max_steps: 1_000_000,
             max_crossings: 64,
+            adaptive: Some(1e-6),
             layers: vec![Layer::Fate, Layer::G],
         }
     );
@@ -184,6 +185,32 @@ fn every_key() {
     assert_eq!((s.render.step, s.file().render.step), (0.1, Some(0.1)));
     assert_eq!(read("render.method = \"tsit5\"").render.method, Method::Tsit5);
     assert_eq!(read("camera.display.tone = \"filmic\"").display.view.tone, Tone::Filmic);
+
+    // Interpolated where that pays, if the scene does not say.
+    for (text, adaptive) in [
+        ("", Some(1e-4)),
+        ("render.adaptive = false", None),
+        ("render.samples = 1", None),
+        ("render = { samples = 1, adaptive = true }", Some(1e-4)),
+        ("render.method = \"tsit5\"", None),
+        ("spacetime.name = \"minkowski\"\ndisk.inner = 6", None),
+    ] {
+        assert_eq!(read(text).render.adaptive, adaptive, "{text}");
+    }
+
+    // The closed form where it can.
+    for (text, engine) in [
+        ("", Engine::ClosedForm),
+        ("render.engine = \"closed-form\"", Engine::ClosedForm),
+        ("render.engine = \"integrator\"", Engine::Integrator),
+        ("spacetime.name = \"schwarzschild\"", Engine::ClosedForm),
+        ("disk.tilt = 10", Engine::Integrator),
+        ("disk = { model = \"none\" }", Engine::ClosedForm),
+        ("render.method = \"tsit5\"", Engine::Integrator),
+        ("spacetime.name = \"minkowski\"\ndisk.inner = 6", Engine::Integrator),
+    ] {
+        assert_eq!(read(text).render.engine, engine, "{text}");
+    }
 
     // A layer that is shown is computed.
     let s = read(

@@ -129,26 +129,33 @@ fn renders() -> impl Strategy<Value = Render> {
         (1..=16384_u32, 1..=2048_u32, 1..=2048_u32),
         0..=i64::MAX as u64,
         any::<bool>(),
-        sample::select(vec![Engine::Auto, Engine::Integrator]),
+        (
+            sample::select(vec![Engine::Auto, Engine::ClosedForm, Engine::Integrator]),
+            option::of(any::<bool>()),
+        ),
         sample::select(vec![Method::Dop853, Method::Tsit5, Method::Rk4]),
         number(1e-14, 1e-2),
         option::of(number(1e-9, 1e3)),
         (1..=1_000_000_u32, 1..=64_u32),
         sample::subsequence(Layer::ALL.to_vec(), 0..=Layer::ALL.len()),
     )
-        .prop_map(|(size, seed, jitter, engine, method, tolerance, step, most, layers)| Render {
-            width: size.0,
-            height: size.1,
-            samples: size.2,
-            seed,
-            jitter,
-            engine,
-            method,
-            tolerance: tolerance.clamp(1e-14, 1e-2),
-            step: step.filter(|_| method == Method::Rk4),
-            max_steps: most.0,
-            max_crossings: most.1,
-            layers,
+        .prop_map(|(size, seed, jitter, (engine, adaptive), method, tolerance, step, most, layers)| {
+            Render {
+                width: size.0,
+                height: size.1,
+                samples: size.2,
+                seed,
+                jitter,
+                engine,
+                method,
+                tolerance: tolerance.clamp(1e-14, 1e-2),
+                step: step.filter(|_| method == Method::Rk4),
+                max_steps: most.0,
+                max_crossings: most.1,
+                adaptive,
+                adaptive_error: tolerance.clamp(1e-10, 1e-2),
+                layers,
+            }
         })
 }
 
@@ -180,6 +187,11 @@ fn scene_files() -> impl Strategy<Value = SceneFile> {
             }
             if observer.distance == Some(f64::INFINITY) && render.method == Method::Rk4 {
                 (render.method, render.step) = (Method::Dop853, None);
+            }
+            let tilted = disk.model != DiskModel::None && disk.tilt != 0.0;
+            if spacetime.name == SpacetimeName::Minkowski || tilted || render.method != Method::Dop853 {
+                // Not for the closed form.
+                render.engine = Engine::Integrator;
             }
             SceneFile { spacetime, observer, screen, disk, sky, render, camera }
         },

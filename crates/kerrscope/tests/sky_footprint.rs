@@ -153,7 +153,7 @@ fn next_to_the_shadow_a_checkerboard_is_grey_and_no_noise() {
 fn pixels_are_the_same_in_any_order_and_for_any_number_of_threads() {
     let folder = tempfile::tempdir().unwrap();
     let mut scene = scene(folder.path(), &checkerboard(), 1, 5);
-    (scene.render.width, scene.render.height) = (64, 36);
+    (scene.render.width, scene.render.height, scene.render.adaptive) = (64, 36, None);
     let stage = Stage::new(&scene).unwrap();
     let (mut replay, mut tally) = (Replay::default(), Tally::default());
     let mut backwards: Vec<_> = (0..64 * 36)

@@ -38,7 +38,7 @@ impl Format {
     /// # Errors
     /// When the file cannot be written.
     pub fn write(self, path: &Path, scene: &Scene, film: &Film) -> Result<(), FileError> {
-        let made = Provenance::of(scene, film.level);
+        let made = Provenance::of(scene, film);
         match self {
             Self::Png => png::write(path, &scene.display.picture(film), scene.display.depth, &made),
             Self::Exr => exr::write(path, film, &made),

@@ -34,6 +34,7 @@ const KEYWORD: &str = "kerrscope";
 ///     version: "0.1.0".into(),
 ///     seed: 1,
 ///     instruction_level: "baseline".into(),
+///     interpolation: None,
 ///     scene_toml: "# a dot\n".into(),
 /// };
 /// let dot = Picture { width: 1, height: 1, pixels: vec![[0.5, 0.2, 0.0]] };

@@ -5,8 +5,8 @@ use std::path::Path;
 use std::str::FromStr;
 
 use super::FileError;
+use crate::render::{Film, Interpolation};
 use crate::scene::Scene;
-use crate::spacetime::Level;
 
 /// What is needed to make a file again.
 ///
@@ -18,7 +18,8 @@ use crate::spacetime::Level;
 /// let made = Provenance {
 ///     version: "0.1.0".into(),
 ///     seed: 7,
-///     instruction_level: "AVX2".into(),
+///     instruction_level: "avx2".into(),
+///     interpolation: None,
 ///     scene_toml: "[spacetime]\nspin = 0.5\n".into(),
 /// };
 /// let text = made.to_string();
@@ -29,7 +30,7 @@ use crate::spacetime::Level;
 ///         "# Rendered by kerrscope.",
 ///         "# version = \"0.1.0\"",
 ///         "# seed = 7",
-///         "# instruction_level = \"AVX2\"",
+///         "# instruction_level = \"avx2\"",
 ///         "#",
 ///         "[spacetime]",
 ///         "spin = 0.5",
@@ -38,7 +39,7 @@ use crate::spacetime::Level;
 /// assert_eq!(text.parse::<Provenance>()?, made);
 /// # Ok::<(), kerrscope::output::ProvenanceFault>(())
 /// ```
-#[derive(Clone, Debug, Eq, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Provenance {
     /// Version of the program.
     pub version: String,
@@ -48,6 +49,8 @@ pub struct Provenance {
     pub seed: u64,
     /// The machine instructions that the rays were traced with.
     pub instruction_level: String,
+    /// How much of the picture was interpolated between rays and how well, if any.
+    pub interpolation: Option<Interpolation>,
 }
 
 /// A text that is no record of provenance.
@@ -65,13 +68,15 @@ pub enum ProvenanceFault {
 }
 
 impl Provenance {
-    /// That of files made of a scene by this program with a level of instructions.
-    pub fn of(scene: &Scene, level: Level) -> Self {
+    /// That of files made of a scene's film by this program.
+    pub fn of(scene: &Scene, film: &Film) -> Self {
+        let interpolation = film.tally.interpolation;
         Self {
             version: env!("CARGO_PKG_VERSION").to_owned(),
             scene_toml: scene.to_toml(),
             seed: scene.render.seed,
-            instruction_level: level.name().to_owned(),
+            instruction_level: film.level.name().to_owned(),
+            interpolation: (interpolation.samples > 0).then_some(interpolation),
         }
     }
 
@@ -96,6 +101,12 @@ impl fmt::Display for Provenance {
         writeln!(f, "# version = {}", quoted(&self.version))?;
         writeln!(f, "# seed = {}", self.seed)?;
         writeln!(f, "# instruction_level = {}", quoted(&self.instruction_level))?;
+        if let Some(Interpolation { samples, compared, missed, worst }) = &self.interpolation {
+            writeln!(f, "# interpolated_samples = {samples}")?;
+            writeln!(f, "# interpolation_compared = {compared}")?;
+            writeln!(f, "# interpolation_missed = {missed}")?;
+            writeln!(f, "# interpolation_error_max = {worst:e}")?;
+        }
         writeln!(f, "#")?;
         f.write_str(&self.scene_toml)
     }
@@ -114,11 +125,12 @@ impl FromStr for Provenance {
             Some(scene) => ("", scene),
             None => rest.split_once("\n#\n").ok_or(ProvenanceFault::Truncated)?,
         };
+        let typed = |key: &str| {
+            let mut lines = comment.lines().filter_map(|line| line.strip_prefix("# ")?.split_once(" = "));
+            lines.find_map(|(k, value)| (k == key).then_some(value))
+        };
         let value = |key: &'static str| {
-            comment
-                .lines()
-                .filter_map(|line| line.strip_prefix("# ")?.split_once(" = "))
-                .find_map(|(k, value)| (k == key).then_some(value))
+            typed(key)
                 .and_then(|value| serde_json::from_str::<serde_json::Value>(value).ok())
                 .ok_or(ProvenanceFault::Line(key))
         };
@@ -126,10 +138,24 @@ impl FromStr for Provenance {
             serde_json::Value::String(s) => Ok(s),
             _ => Err(ProvenanceFault::Line(key)),
         };
+        let count = |key| value(key)?.as_u64().ok_or(ProvenanceFault::Line(key));
+        // Only where there is something to say.
+        let interpolation = match typed("interpolated_samples") {
+            None => None,
+            Some(_) => Some(Interpolation {
+                samples: count("interpolated_samples")?,
+                compared: count("interpolation_compared")?,
+                missed: count("interpolation_missed")?,
+                worst: value("interpolation_error_max")?
+                    .as_f64()
+                    .ok_or(ProvenanceFault::Line("interpolation_error_max"))?,
+            }),
+        };
         Ok(Self {
             version: string("version")?,
-            seed: value("seed")?.as_u64().ok_or(ProvenanceFault::Line("seed"))?,
+            seed: count("seed")?,
             instruction_level: string("instruction_level")?,
+            interpolation,
             scene_toml: scene.to_owned(),
         })
     }

@@ -1,5 +1,6 @@
 //! Rendering: every pixel's rays, in parallel, the same for any number of threads.
 
+mod adaptive;
 mod film;
 mod layer;
 mod probe;
@@ -13,7 +14,7 @@ pub use film::{Film, Moments, Plane};
 pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;
 pub use stage::{Replay, Stage, StageError};
-pub use tally::Tally;
+pub use tally::{Interpolation, Tally};
 pub use tracer::tracer;
 
 use crate::checkpoint::Checkpoint;
@@ -69,20 +70,22 @@ pub enum Stopped {
 /// # Errors
 /// If it is stopped, or the checkpoint cannot be used. What was finished by then is in the checkpoint.
 pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
-    let tiling = Tiling::new(stage.size(), stage.rays_per_pixel());
+    let tiling = Tiling::of(stage);
     let mut film = Film::blank(stage.size(), stage.channels(), stage.level());
     let mut done = vec![false; tiling.count() as usize];
     if let Some(checkpoint) = watch.checkpoint {
+        let mut rays = 0;
         checkpoint.parts(|number, contents| {
             if let Some(done @ false) = done.get_mut(number as usize) {
                 let area = tiling.area(number);
                 if let Some(tile) = Tile::decode(contents, area, stage.channels().len()) {
                     film.place(&tile, area);
                     *done = true;
+                    rays += area.rays(stage);
                 }
             }
         })?;
-        (watch.progress)(film.tally.rays);
+        (watch.progress)(rays);
     }
     let film = Mutex::new(film);
     // As many as there are threads, each used again and again.
@@ -99,7 +102,7 @@ pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
             checkpoint.keep(number, &tile.encode())?;
         }
         lock(&film).place(&tile, area);
-        (watch.progress)(tile.tally.rays);
+        (watch.progress)(area.rays(stage));
         Ok(())
     });
     if let (Err(Stopped::Cancelled), Some(checkpoint)) = (&outcome, watch.checkpoint) {

@@ -1,5 +1,6 @@
 //! A scene made ready to be drawn: pictures loaded, camera and tracer set up.
 
+use super::adaptive::Audit;
 use super::probe::Probe;
 use super::tracer::tracer;
 use super::{Channel, Sampler, Tally};
@@ -12,6 +13,7 @@ use crate::sky::{Grid, Panorama, Sky, Stars, footprint};
 use crate::spacetime::Level;
 use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use crate::spacetime::observer::ObserverError;
+use crate::spacetime::tensor::Vec3;
 use crate::texture::{Texture, TextureError};
 
 /// Everything that a render needs.
@@ -28,6 +30,8 @@ pub struct Stage {
     pixel: f64,
     sampler: Sampler,
     level: Level,
+    adaptive: Option<f64>,
+    audit: Audit,
 }
 
 /// Why a scene cannot be made ready.
@@ -59,7 +63,7 @@ pub struct Replay {
 
 /// What a ray sees: light gathered on its way, and the direction of the sky behind, if it sees it.
 #[derive(Clone, Copy, Debug)]
-struct View {
+pub(super) struct View {
     beam: Beam,
     sky: Option<[f64; 2]>,
 }
@@ -97,6 +101,12 @@ impl Stage {
             sky: sky(scene, pixel)?,
             pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
+            adaptive: scene.render.adaptive,
+            audit: Audit::new(
+                [scene.render.width, scene.render.height],
+                scene.render.samples,
+                scene.render.seed,
+            ),
         })
     }
 
@@ -105,7 +115,7 @@ impl Stage {
         self.size
     }
 
-    /// Rays in the whole picture.
+    /// Rays in the whole picture, of which an adaptive one traces only some.
     pub fn rays(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.rays_per_pixel())
     }
@@ -135,6 +145,47 @@ impl Stage {
         self.tracer.name()
     }
 
+    /// The error that interpolation between rays shall not exceed, if there is any.
+    pub fn adaptive(&self) -> Option<f64> {
+        self.adaptive
+    }
+
+    /// Samples of a pixel.
+    pub(super) fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Which samples an adaptive picture is judged by.
+    pub(super) fn audit(&self) -> Audit {
+        self.audit
+    }
+
+    /// Unit normal of the plane whose crossings rays report.
+    pub(super) fn normal(&self) -> Vec3<f64> {
+        self.query.plane
+    }
+
+    /// A pixel's running number along the rows.
+    pub(super) fn number(&self, [x, y]: [u32; 2]) -> u64 {
+        u64::from(y) * u64::from(self.size[0]) + u64::from(x)
+    }
+
+    /// Where in the picture a sample of a pixel lies.
+    pub(super) fn sample(&self, pixel: [u32; 2], sample: u32) -> [f64; 2] {
+        let [right, down] = self.sampler.place(self.number(pixel), sample);
+        [f64::from(pixel[0]) + right, f64::from(pixel[1]) + down]
+    }
+
+    /// Whether a crossing of the plane with 1/r in a range can be on the disk.
+    pub(super) fn meets_disk(&self, [low, high]: [f64; 2]) -> bool {
+        self.disk.as_ref().is_some_and(|disk| high * disk.outer >= 1.0 && low * disk.inner <= 1.0)
+    }
+
+    /// Whether the sky looks different in different directions.
+    pub(super) fn sky_varies(&self) -> bool {
+        !matches!(self.sky, Sky::Black | Sky::Uniform(_))
+    }
+
     /// The mean light of a pixel's rays.
     pub fn pixel(&self, pixel: [u32; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
         let mut light = Light::DARK;
@@ -152,11 +203,9 @@ impl Stage {
     ) {
         replay.views.clear();
         replay.points.clear();
-        for [x, y] in pixels {
-            let number = u64::from(y) * u64::from(self.size[0]) + u64::from(x);
+        for pixel in pixels {
             for sample in 0..self.samples {
-                let [right, down] = self.sampler.place(number, sample);
-                replay.points.push([f64::from(x) + right, f64::from(y) + down]);
+                replay.points.push(self.sample(pixel, sample));
                 if replay.points.len() == BATCH {
                     self.view(replay, tally);
                 }
@@ -169,8 +218,8 @@ impl Stage {
     }
 
     /// The mean light of a pixel whose rays see this.
-    fn mean(&self, views: &[View]) -> Light {
-        let mut angle = self.pixel / f64::from(self.samples).sqrt();
+    pub(super) fn mean(&self, views: &[View]) -> Light {
+        let mut angle = self.pixel / (views.len() as f64).sqrt();
         if let Sky::Panorama(_) = self.sky {
             angle = footprint(views.iter().filter_map(|view| view.sky), angle);
         }
@@ -178,7 +227,7 @@ impl Stage {
         for view in views {
             sum += self.light(view, angle);
         }
-        sum * (1.0 / f64::from(self.samples))
+        sum * (1.0 / views.len() as f64)
     }
 
     /// What the data layers say of pixels: of the ray through the centre of each, in the order of
@@ -225,23 +274,45 @@ impl Stage {
         let mut paths = replay.paths.iter();
         for arrives in &replay.arrives {
             let path = if *arrives { paths.next() } else { None };
-            replay.views.push(path.map_or(View { beam: Beam::new(), sky: None }, |path| self.seen(path)));
+            let hits = path.iter().flat_map(|path| &path.crossings);
+            let hits = hits.map(|c| DiskHit { radius: c.r, position: c.position });
+            replay.views.push(self.seen(hits, path.and_then(|path| path.direction)));
         }
         replay.points.clear();
     }
 
-    /// What a ray with this path sees.
-    fn seen(&self, path: &Path) -> View {
+    /// What a ray sees that crosses the disk's plane in these places, in this order, and comes from a
+    /// direction of the sky or from nowhere.
+    pub(super) fn seen(&self, hits: impl Iterator<Item = DiskHit>, direction: Option<[f64; 2]>) -> View {
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
-            for crossing in &path.crossings {
-                let hit = DiskHit { radius: crossing.r, position: crossing.position };
+            for hit in hits {
                 if let Some(sheet) = disk.sheet(&hit) {
                     beam.pass(sheet);
                 }
             }
         }
-        View { beam, sky: path.direction.filter(|_| !beam.is_blocked()) }
+        View { beam, sky: direction.filter(|_| !beam.is_blocked()) }
+    }
+
+    /// Traces the rays at points of the picture; tells of a path for each, or of none where no photon
+    /// arrives.
+    pub(super) fn trace(
+        &self,
+        points: &[[f64; 2]],
+        replay: &mut Replay,
+        tally: &mut Tally,
+        mut each: impl FnMut(Option<&Path>),
+    ) {
+        for some in points.chunks(BATCH) {
+            replay.points.clear();
+            replay.points.extend(some);
+            self.follow(&self.query, replay, tally);
+            let mut paths = replay.paths.iter();
+            for arrives in &replay.arrives {
+                each(if *arrives { paths.next() } else { None });
+            }
+        }
     }
 
     /// Follows the rays that arrive at the points of a replay.

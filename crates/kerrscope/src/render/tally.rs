@@ -16,6 +16,33 @@ pub struct Tally {
     /// Rays by the power of two of their error estimate: number k holds 2^(k − 64) to 2^(k − 63), the first
     /// all that is less, the last all that is more.
     octaves: Vec<u64>,
+    /// What was interpolated between rays.
+    pub interpolation: Interpolation,
+}
+
+/// How much of a picture was interpolated between rays, and how well.
+///
+/// Errors are relative for the radii of crossings, and radians for their azimuths and for directions.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Serialize)]
+pub struct Interpolation {
+    /// Samples that were interpolated.
+    pub samples: u64,
+    /// Samples picked by chance over the whole picture that were traced as well.
+    pub compared: u64,
+    /// Those among them that end or cross the plane otherwise than was interpolated.
+    pub missed: u64,
+    /// Largest error of the others.
+    pub worst: f64,
+}
+
+impl Interpolation {
+    /// Adds what is known of another part of the picture.
+    pub fn add(&mut self, other: &Self) {
+        self.samples += other.samples;
+        self.compared += other.compared;
+        self.missed += other.missed;
+        self.worst = self.worst.max(other.worst);
+    }
 }
 
 /// Powers of two from 2⁻⁶⁴ to 2³¹.
@@ -46,6 +73,7 @@ impl Tally {
         self.given_up += other.given_up;
         self.steps += other.steps;
         self.worst = self.worst.max(other.worst);
+        self.interpolation.add(&other.interpolation);
         if self.octaves.is_empty() {
             self.octaves.clone_from(&other.octaves);
         } else {

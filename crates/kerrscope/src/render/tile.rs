@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::adaptive;
 use super::stage::{Replay, Stage};
 use super::tally::Tally;
+use crate::light::Light;
 
 /// The longest edge of a tile, in pixels.
 const LONGEST: u32 = 16;
@@ -39,8 +41,16 @@ pub(super) struct Tile {
 }
 
 impl Tiling {
+    /// The tiles of a stage's picture.
+    pub(super) fn of(stage: &Stage) -> Self {
+        match stage.adaptive() {
+            Some(_) => Self { size: stage.size(), edge: adaptive::tile_edge(stage.samples()) },
+            None => Self::new(stage.size(), stage.rays_per_pixel()),
+        }
+    }
+
     /// Tiles for a picture of a size, with a number of rays in each pixel.
-    pub(super) fn new(size: [u32; 2], samples: u32) -> Self {
+    fn new(size: [u32; 2], samples: u32) -> Self {
         let edge = (MOST_RAYS / samples.max(1)).isqrt().clamp(1, LONGEST);
         Self { size, edge }
     }
@@ -60,6 +70,13 @@ impl Tiling {
     }
 }
 
+impl Area {
+    /// Rays that the picture has there, traced or not.
+    pub(super) fn rays(self, stage: &Stage) -> u64 {
+        u64::from(self.width) * u64::from(self.height) * u64::from(stage.rays_per_pixel())
+    }
+}
+
 impl Tile {
     /// Draws a tile.
     pub(super) fn draw(stage: &Stage, area: Area, replay: &mut Replay) -> Self {
@@ -69,6 +86,7 @@ impl Tile {
         let all = || (top..top + height).flat_map(|y| (left..left + width).map(move |x| [x, y]));
         let mut tally = Tally::default();
         let mut light = Vec::with_capacity(pixels);
+        let mut keep = |seen: Light| light.push(seen.rgb.map(|c| c as f32));
         let mut values = vec![f32::NAN; channels * pixels];
         if channels > 0 {
             let mut pixel = 0;
@@ -77,7 +95,12 @@ impl Tile {
                 pixel += usize::from(channel + 1 == channels);
             });
         }
-        stage.pixels(all(), replay, &mut tally, |seen| light.push(seen.rgb.map(|c| c as f32)));
+        match stage.adaptive() {
+            Some(target) => {
+                adaptive::draw(stage, target, area, replay, &mut tally).into_iter().for_each(&mut keep);
+            }
+            None => stage.pixels(all(), replay, &mut tally, &mut keep),
+        }
         Self { light, values, tally }
     }
 

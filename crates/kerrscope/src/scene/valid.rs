@@ -182,6 +182,9 @@ pub struct Render {
     /// Crossings of the disk's plane that count, the first met going back from the camera; what lies
     /// behind is seen through the rest.
     pub max_crossings: u32,
+    /// If pictures are interpolated between rays, the largest error that this shall make: relative for
+    /// radii, radians for azimuths and directions.
+    pub adaptive: Option<f64>,
     /// Data layers to compute beside the light, each once, in the order of their definition.
     pub layers: Vec<Layer>,
 }

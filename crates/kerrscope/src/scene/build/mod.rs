@@ -23,6 +23,9 @@ use crate::render::Layer;
 /// The largest number of rays in a picture: width × height × samples.
 const MAX_RAYS: u64 = 1 << 36;
 
+/// Samples of a pixel from which on interpolation between rays pays.
+const ADAPTIVE_SAMPLES: u32 = 4;
+
 /// Builds a scene. What cannot be is reported, and something possible put in its place, so that
 /// all of it is found; the scene is good only if nothing was reported.
 ///
@@ -130,6 +133,11 @@ impl Builder<'_> {
             );
         }
         let engine = self.engine(scene, spacetime);
+        // Straight rays are faster than interpolation; whoever asks for a method's steps wants to see its errors.
+        let pays = spacetime != Spacetime::Minkowski
+            && file.method == Method::Dop853
+            && file.samples >= ADAPTIVE_SAMPLES;
+        let adaptive = file.adaptive.unwrap_or(pays);
         Render {
             width: file.width,
             height: file.height,
@@ -142,6 +150,7 @@ impl Builder<'_> {
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
+            adaptive: adaptive.then_some(file.adaptive_error),
             layers: layers.into_iter().collect(),
         }
     }

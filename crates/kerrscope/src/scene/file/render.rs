@@ -47,6 +47,15 @@ pub struct Render {
     /// behind is seen through the rest.
     #[schemars(range(min = 1, max = 64))]
     pub max_crossings: u32,
+    /// Whether rays are traced where they are needed and what lies between is interpolated; without it,
+    /// where that pays. Data layers are always traced.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "bool")]
+    pub adaptive: Option<bool>,
+    /// Largest error that interpolation shall make: of the radius of a crossing, relative; of its azimuth
+    /// and of the direction on the sky, in radians.
+    #[schemars(range(min = 1e-10, max = 1e-2))]
+    pub adaptive_error: f64,
     /// Data layers to compute beside the light, of the rays through the pixels' centres; EXR files
     /// hold them.
     #[schemars(length(max = 12))]
@@ -67,6 +76,8 @@ impl Default for Render {
             step: None,
             max_steps: 10_000,
             max_crossings: 8,
+            adaptive: None,
+            adaptive_error: 1e-4,
             layers: Vec::new(),
         }
     }

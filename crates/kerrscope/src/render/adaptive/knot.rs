@@ -1,0 +1,124 @@
+//! What is interpolated: the answers of traced rays as smooth numbers.
+//!
+//! Of each crossing 1/r and the unit vector to it, of light that escapes the unit vector to where it comes
+//! from. Unlike r itself, 1/r is smooth where a crossing goes off to infinity, and unlike angles vectors are
+//! smooth across the axis and once around.
+
+use crate::spacetime::geodesic::{Fate, Path};
+use crate::spacetime::tensor::{Vec3, dot};
+
+/// Numbers of a crossing: 1/r, then the unit vector.
+pub(super) const CROSSING: usize = 4;
+
+/// Rays are interpolated among those of one kind.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(super) enum Kind {
+    /// No photon arrives at this point of the picture.
+    Nothing,
+    /// Given up on, or never like another.
+    Unknown,
+    /// It escapes, after so many crossings of the plane; whether to the side of the plane's normal.
+    Escaped { crossings: u8, above: bool },
+    /// It is captured, after so many crossings.
+    Captured { crossings: u8 },
+}
+
+impl Kind {
+    /// How many crossings there are.
+    pub(super) fn crossings(self) -> usize {
+        match self {
+            Self::Nothing | Self::Unknown => 0,
+            Self::Escaped { crossings, .. } | Self::Captured { crossings } => usize::from(crossings),
+        }
+    }
+
+    /// Where the numbers of the direction begin, if the light escapes.
+    pub(super) fn direction(self) -> Option<usize> {
+        matches!(self, Self::Escaped { .. }).then(|| CROSSING * self.crossings())
+    }
+
+    /// How many numbers are interpolated.
+    pub(super) fn numbers(self) -> usize {
+        CROSSING * self.crossings() + if self.direction().is_some() { 3 } else { 0 }
+    }
+}
+
+/// Traced rays, each of a kind and with its numbers.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Knots {
+    kinds: Vec<Kind>,
+    /// Where the numbers of each begin.
+    starts: Vec<u32>,
+    numbers: Vec<f64>,
+}
+
+impl Knots {
+    pub(super) fn count(&self) -> usize {
+        self.kinds.len()
+    }
+
+    /// Adds a ray that was traced; none if no photon arrives there. `normal` is that of the plane.
+    pub(super) fn push(&mut self, path: Option<&Path>, normal: &Vec3<f64>) {
+        self.starts.push(self.numbers.len() as u32);
+        self.kinds.push(path.map_or(Kind::Nothing, |path| kind(path, normal)));
+        let Some(path) = path else { return };
+        for crossing in &path.crossings {
+            let inverse = dot(&crossing.position, &crossing.position).sqrt().recip();
+            self.numbers.push(crossing.r.recip());
+            self.numbers.extend(crossing.position.map(|c| c * inverse));
+        }
+        self.numbers.extend(path.direction.iter().flat_map(unit));
+    }
+
+    /// Adds a ray of a kind with its numbers.
+    pub(super) fn push_numbers(&mut self, kind: Kind, numbers: &[f64]) {
+        self.starts.push(self.numbers.len() as u32);
+        self.kinds.push(kind);
+        self.numbers.extend(numbers);
+    }
+
+    pub(super) fn kind(&self, knot: u32) -> Kind {
+        self.kinds[knot as usize]
+    }
+
+    /// The numbers of a ray, as many as its kind has.
+    pub(super) fn numbers(&self, knot: u32) -> &[f64] {
+        &self.numbers[self.starts[knot as usize] as usize..]
+    }
+}
+
+/// The largest difference between two rays of a kind: relative in the radii of crossings, radians in their
+/// azimuths and in the direction.
+pub(super) fn difference(kind: Kind, exact: &[f64], found: &[f64]) -> f64 {
+    let angle = |first: usize| {
+        let exact: Vec3<f64> = std::array::from_fn(|i| exact[first + i]);
+        let found: Vec3<f64> = std::array::from_fn(|i| found[first + i]);
+        let inverse = dot(&found, &found).sqrt().recip();
+        let chord: Vec3<f64> = std::array::from_fn(|i| found[i] * inverse - exact[i]);
+        dot(&chord, &chord).sqrt()
+    };
+    let radius = |first: usize| (exact[first] / found[first] - 1.0).abs();
+    let crossings = (0..kind.crossings()).map(|k| CROSSING * k);
+    let errors = crossings.flat_map(|first| [radius(first), angle(first + 1)]);
+    // What is not a number is no small error.
+    let worse = |worst: f64, error: f64| if error <= worst { worst } else { error };
+    errors.chain(kind.direction().map(angle)).fold(0.0, worse)
+}
+
+fn kind(path: &Path, normal: &Vec3<f64>) -> Kind {
+    let Ok(crossings) = u8::try_from(path.crossings.len()) else { return Kind::Unknown };
+    let known = path.crossings.iter().all(|c| c.r > 0.0 && c.position.iter().all(|c| c.is_finite()));
+    match (path.fate, path.direction) {
+        (Fate::Escaped, Some(direction)) if known && direction.iter().all(|c| c.is_finite()) => {
+            Kind::Escaped { crossings, above: dot(&unit(&direction), normal) > 0.0 }
+        }
+        (Fate::Captured, _) if known => Kind::Captured { crossings },
+        _ => Kind::Unknown,
+    }
+}
+
+/// The unit vector to a direction (θ, φ).
+fn unit([theta, phi]: &[f64; 2]) -> Vec3<f64> {
+    let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
+    [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
+}
