@@ -199,11 +199,27 @@ fn wrong_questions_exit_with_2() {
 #[test]
 fn bench_tells_speed_and_error_together() {
     let rows = here(&["bench", "--thin", "40", "--format", "json"]);
-    let row = rows.as_array().unwrap().iter().find(|row| row["tolerance"] == 1e-8).unwrap();
-    assert_eq!(row["rays"], 400);
-    assert!(row["rays_per_cpu_s"].as_f64().unwrap() > 0.0);
-    let error = row["sky_error_median"].as_f64().unwrap();
+    let rows = rows.as_array().unwrap();
+    let number = |row: &serde_json::Value, key: &str| row[key].as_f64().unwrap();
+    for row in rows {
+        assert_eq!((&row["rays"], &row["mismatched"]), (&400.into(), &0.into()), "{row}");
+        assert_eq!(number(row, "captured") + number(row, "escaped"), 400.0, "{row}");
+        assert!(number(row, "rays_per_cpu_s") > 0.0 && number(row, "crossings_total") > 300.0, "{row}");
+    }
+    let closed = rows.iter().find(|row| row["method"] == "gauss-legendre-24").unwrap();
+    assert_eq!((&closed["engine"], &closed["tolerance"]), (&"closed-form".into(), &serde_json::Value::Null));
+    assert!(number(closed, "sky_error_max") < 1e-12 && number(closed, "radius_error_share_of_bound") < 1.0);
+    let integrated = rows.iter().find(|row| row["tolerance"] == 1e-8).unwrap();
+    let error = number(integrated, "sky_error_median");
     assert!(error > 0.0 && error < 1e-8, "{error:e}");
+    let some =
+        here(&["bench", "--thin", "80", "--engine", "closed-form", "--simd", "baseline", "--format", "json"]);
+    assert!(
+        some.as_array()
+            .unwrap()
+            .iter()
+            .all(|row| row["simd"] == "baseline" && row["engine"] == "closed-form")
+    );
 }
 
 #[test]

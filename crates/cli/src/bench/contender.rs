@@ -1,0 +1,65 @@
+//! The engines that are measured.
+
+use super::course::SPIN;
+use kerrscope::spacetime::Level;
+use kerrscope::spacetime::closed::ClosedForm;
+use kerrscope::spacetime::geodesic::{Integrator, Scheme, Tracer};
+use kerrscope::spacetime::metric::Kerr;
+
+/// The names of engines.
+pub const ENGINES: [&str; 3] = ["closed-form", "integrator", "components"];
+
+/// Steps after which a ray is given up.
+const MOST_STEPS: usize = 100_000;
+
+/// An engine with its settings.
+pub struct Contender {
+    pub engine: &'static str,
+    pub method: &'static str,
+    pub tolerance: Option<f64>,
+    pub level: Level,
+    pub tracer: Box<dyn Tracer>,
+}
+
+impl Contender {
+    /// Every engine and method, at every level that this processor has.
+    pub fn all() -> Vec<Self> {
+        let levels = || Level::ALL.into_iter().rev().filter(|level| level.is_available());
+        let closed = |(method, nodes), level| Self {
+            engine: ENGINES[0],
+            method,
+            tolerance: None,
+            level,
+            tracer: Box::new(ClosedForm::new(SPIN, nodes, MOST_STEPS).with_level(level)),
+        };
+        let mut all = Vec::new();
+        for quadrature in [("gauss-legendre-24", 24), ("gauss-legendre-12", 12)] {
+            all.extend(levels().map(|level| closed(quadrature, level)));
+        }
+        let schemes = [
+            ("dop853", Scheme::Dop853 { tolerance: 1e-8 }),
+            ("dop853", Scheme::Dop853 { tolerance: 1e-10 }),
+            ("tsit5", Scheme::Tsit5 { tolerance: 1e-6 }),
+            ("rk4", Scheme::Rk4 { step: 0.1 }),
+        ];
+        for (method, scheme) in schemes {
+            let tolerance = match scheme {
+                Scheme::Rk4 { .. } => None,
+                Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => Some(tolerance),
+            };
+            all.push(Self {
+                engine: ENGINES[1],
+                method,
+                tolerance,
+                level: Level::Baseline,
+                tracer: Box::new(Integrator::new(Kerr::new(SPIN), scheme, MOST_STEPS)),
+            });
+        }
+        all
+    }
+}
+
+/// What the others are compared with: 48 nodes leave nothing but rounding.
+pub fn exact() -> Box<dyn Tracer> {
+    Box::new(ClosedForm::new(SPIN, 48, MOST_STEPS))
+}
