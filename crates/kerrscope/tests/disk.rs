@@ -24,7 +24,7 @@ fn ring(seed: u64) -> Disk {
 
 fn at(disk: &Disk, radius: f64, azimuth: f64) -> Sheet {
     let position = [radius * azimuth.cos(), radius * azimuth.sin(), 0.0];
-    disk.sheet(&DiskHit { radius, position }).unwrap()
+    disk.sheet(&disk.hit(radius, position)).unwrap()
 }
 
 fn pictured(image: &image::GrayImage, mapping: Mapping) -> Disk {
@@ -54,7 +54,7 @@ fn profile(disk: &Disk, n: u32) -> Vec<f64> {
 #[test]
 fn nothing_is_seen_outside_the_radii() {
     for radius in [5.999, 16.001, 0.0, -8.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(ring(1).sheet(&DiskHit { radius, position: [1.0, 0.0, 0.0] }), None);
+        assert_eq!(ring(1).sheet(&DiskHit { radius, azimuth: 0.0 }), None);
     }
 }
 
@@ -210,7 +210,7 @@ fn azimuth_is_counted_in_a_tilted_plane() {
     let radius = 10.0;
     let c = radius * FRAC_1_SQRT_2;
     // Column 1 of 4 is azimuth 135°: half-way from +z to −x.
-    let sheet = disk.sheet(&DiskHit { radius, position: [-c, 0.0, c] }).unwrap();
+    let sheet = disk.sheet(&disk.hit(radius, [-c, 0.0, c])).unwrap();
     assert!((sheet.light.rgb[0] - 1.0).abs() < 1e-9);
 }
 
@@ -244,7 +244,7 @@ proptest! {
             for (inner, outer) in [(inner, outer), (6.0, 16.0), (radius, radius)] {
                 let disk = Disk { inner, outer, plane: Plane::new(tilt, tilt), ..disk.clone() };
                 for radius in [radius, 6.0 + radius.abs() % 10.0] {
-                    if let Some(sheet) = disk.sheet(&DiskHit { radius, position: [x, y, x] }) {
+                    if let Some(sheet) = disk.sheet(&disk.hit(radius, [x, y, x])) {
                         prop_assert!((0.0..=1.0).contains(&sheet.opacity));
                         prop_assert!(sheet.light.rgb.iter().all(|c| (0.0..4.0).contains(c)));
                     }

@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use kerrscope::light::Light;
-use kerrscope::sky::{Grid, Orientation, Panorama, Sky};
+use kerrscope::sky::{Grid, Orientation, Panorama, Sky, towards};
 use kerrscope::texture::Texture;
 use proptest::prelude::*;
 
@@ -46,12 +46,12 @@ fn a_star_in_a_panorama_is_where_a_viewer_inside_sees_it() {
             let sky = Sky::Panorama(star(x, y, longitude, 1.0));
             let (theta, phi) = direction_of_pixel(x, y, longitude);
             for turns in [-2.0, 0.0, 5.0] {
-                let light = sky.radiance(theta, phi + turns * TAU, 0.0);
+                let light = sky.radiance(towards(theta, phi + turns * TAU), 0.0);
                 assert!((light.rgb[0] - 1.0).abs() < 1e-9, "{x} {y} {longitude} {light:?}");
             }
             // Two pixels (10°) away there is nothing.
             for (dt, dp) in [(0.18, 0.0), (-0.18, 0.0), (0.0, 0.18), (0.0, -0.18)] {
-                assert_eq!(sky.radiance(theta + dt, phi + dp, 0.0), Light::DARK);
+                assert_eq!(sky.radiance(towards(theta + dt, phi + dp), 0.0), Light::DARK);
             }
         }
     }
@@ -65,7 +65,7 @@ fn a_panorama_joins_across_its_left_and_right_edges() {
     // The left edge is at azimuth +π. The star lies half a pixel to its right, and shines
     // half as bright on the edge itself, from both sides.
     for (phi, light) in [(PI - 0.5 * pixel, 1.0), (PI, 0.5), (-PI, 0.5), (-PI + 0.25 * pixel, 0.25)] {
-        assert!((sky.radiance(theta, phi, 0.0).rgb[0] - light).abs() < 1e-9, "{phi}");
+        assert!((sky.radiance(towards(theta, phi), 0.0).rgb[0] - light).abs() < 1e-9, "{phi}");
     }
 }
 
@@ -77,7 +77,8 @@ fn a_panorama_has_no_seam_across_the_poles() {
     for pole in [0.0, PI] {
         for phi in [0.0, 0.7, 2.0, 4.4] {
             let theta = (pole - 1e-9_f64).abs();
-            let (here, there) = (sky.radiance(theta, phi, 0.0), sky.radiance(theta, phi + PI, 0.0));
+            let (here, there) =
+                (sky.radiance(towards(theta, phi), 0.0), sky.radiance(towards(theta, phi + PI), 0.0));
             assert!((here.rgb[0] - there.rgb[0]).abs() < 1e-6, "{here:?} {there:?}");
         }
     }
@@ -87,11 +88,11 @@ fn a_panorama_has_no_seam_across_the_poles() {
 fn brightness_is_a_factor() {
     let sky = star(36, 17, 0.0, 3.0);
     let (theta, phi) = direction_of_pixel(36, 17, 0.0);
-    assert!((sky.radiance(theta, phi, 0.0).rgb[2] - 3.0).abs() < 1e-9);
+    assert!((sky.radiance(towards(theta, phi), 0.0).rgb[2] - 3.0).abs() < 1e-9);
 
     let colour = Light::new([0.9, 0.8, 0.7]);
     let (plain, bright) = (Grid::new(0.2, colour, 1.0), Grid::new(0.2, colour, 2.5));
-    assert_eq!(plain.radiance(0.3, 0.4) * 2.5, bright.radiance(0.3, 0.4));
+    assert_eq!(plain.radiance(towards(0.3, 0.4)) * 2.5, bright.radiance(towards(0.3, 0.4)));
 }
 
 fn grid() -> Grid {
@@ -103,7 +104,7 @@ fn grid() -> Grid {
 fn width(path: impl Fn(f64) -> (f64, f64)) -> f64 {
     let light = |s: f64| {
         let (theta, phi) = path(s);
-        grid().radiance(theta, phi).rgb[0]
+        grid().radiance(towards(theta, phi)).rgb[0]
     };
     let (middle, beside) = (light(0.0), light(0.05));
     let step = 1e-6;
@@ -130,7 +131,7 @@ fn lines_have_one_width_on_the_sky_wherever_they_are() {
 
 #[test]
 fn the_main_lines_are_brighter_and_the_rest_closes_around_the_sky() {
-    let light = |theta, phi| grid().radiance(theta, phi).rgb[0];
+    let light = |theta, phi| grid().radiance(towards(theta, phi)).rgb[0];
     assert_eq!(light(FRAC_PI_2, 0.4), 1.0);
     assert_eq!(light(1.2, 0.0), 1.0);
     // The meridian opposite to 0 is an ordinary one.
@@ -138,7 +139,7 @@ fn the_main_lines_are_brighter_and_the_rest_closes_around_the_sky() {
     // A spacing that divides nothing is rounded to one that does.
     for degrees in [7.0, 11.0, 13.0, 40.0] {
         let grid = Grid::new(f64::to_radians(degrees), Light::new([1.0; 3]), 1.0);
-        let brightest = grid.radiance(1.2, PI).rgb[1];
+        let brightest = grid.radiance(towards(1.2, PI)).rgb[1];
         assert!((brightest - 0.4).abs() < 1e-9, "{degrees}");
     }
 }
@@ -146,7 +147,7 @@ fn the_main_lines_are_brighter_and_the_rest_closes_around_the_sky() {
 #[test]
 fn the_four_parts_differ() {
     let tints: Vec<Light> = [(1.4, 0.4), (1.4, 3.6), (1.75, 0.4), (1.75, 3.6)]
-        .map(|(theta, phi)| grid().radiance(theta, phi))
+        .map(|(theta, phi)| grid().radiance(towards(theta, phi)))
         .to_vec();
     for (i, a) in tints.iter().enumerate() {
         // Dim: below a tenth of the lines.
@@ -167,7 +168,7 @@ proptest! {
     ) {
         let grid = Grid::new(spacing, Light::new([1.0; 3]), 1.0);
         for sky in [Sky::Grid(grid), Sky::Panorama(star(3, 4, 0.0, 1.0))] {
-            let light = sky.radiance(theta, phi, angle);
+            let light = sky.radiance(towards(theta, phi), angle);
             prop_assert!(light.rgb.iter().all(|c| (0.0..=1.0).contains(c)), "{:?}", light);
         }
     }
@@ -175,8 +176,8 @@ proptest! {
     #[test]
     fn the_grid_is_continuous_at_the_poles(phi in 0.0..TAU, away in 0.0..PI) {
         // Within the cap where the meridians merge all is line.
-        let here = grid().radiance(1e-4, phi).rgb[0];
-        let there = grid().radiance(1e-4, phi + away).rgb[0];
+        let here = grid().radiance(towards(1e-4, phi)).rgb[0];
+        let there = grid().radiance(towards(1e-4, phi + away)).rgb[0];
         prop_assert!((here - there).abs() < 0.01, "{} {}", here, there);
     }
 }

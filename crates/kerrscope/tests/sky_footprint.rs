@@ -6,7 +6,7 @@ use std::path::Path;
 use image::{GrayImage, Luma};
 use kerrscope::render::{Replay, Sampler, Stage, Tally, Watch, draw, tracer};
 use kerrscope::scene::Scene;
-use kerrscope::sky::{Orientation, Panorama, footprint};
+use kerrscope::sky::{Orientation, Panorama, footprint, towards};
 use kerrscope::spacetime::geodesic::{Path as Trajectory, Query};
 use kerrscope::texture::Texture;
 
@@ -23,7 +23,7 @@ fn the_footprint_is_the_rays_distance_from_each_other() {
                 let directions = (0..samples).map(|sample| {
                     let [x, y] = sampler.place(pixel, sample);
                     let [along, across] = [x * stretches[0], y * stretches[1]];
-                    [FRAC_PI_2 + cos * along - sin * across, 1.0 + sin * along + cos * across]
+                    towards(FRAC_PI_2 + cos * along - sin * across, 1.0 + sin * along + cos * across)
                 });
                 sum += (footprint(directions, 1.0) / expected).powi(2);
             }
@@ -39,7 +39,7 @@ fn rays_from_everywhere_stand_for_the_whole_sky() {
     let rays = 400;
     let directions = (0..rays).map(|k| {
         let z = (2.0 * f64::from(k) + 1.0) / f64::from(rays) - 1.0;
-        [z.acos(), 2.399963229728653 * f64::from(k)]
+        towards(z.acos(), 2.399963229728653 * f64::from(k))
     });
     let found = footprint(directions, 0.0);
     assert!((found - (6.0 / f64::from(rays)).sqrt()).abs() < 1e-4, "{found}");
@@ -47,14 +47,14 @@ fn rays_from_everywhere_stand_for_the_whole_sky() {
 
 #[test]
 fn few_rays_are_not_believed_to_be_close_together() {
-    let one = [1.0, 2.0];
+    let one = towards(1.0, 2.0);
     assert_eq!(footprint([], 1e-3), 1e-3);
     for rays in 1..4 {
         assert_eq!(footprint(vec![one; rays], 1e-3), 1e-3);
     }
     assert!(footprint([one; 4], 1e-3) < 1e-7);
     // They may be farther apart.
-    assert!(footprint([one, [1.5, 2.0]], 1e-3) > 0.3);
+    assert!(footprint([one, towards(1.5, 2.0)], 1e-3) > 0.3);
 }
 
 /// The scene of figure 4.5 of the thesis, a quarter as large, before a panorama.
@@ -102,7 +102,7 @@ fn unfiltered(scene: &Scene, sky: &Panorama, pixels: &[[u32; 2]]) -> Vec<f64> {
             let [right, down] = sampler.place(u64::from(y * render.width + x), sample);
             let ray = camera.ray(f64::from(x) + right, f64::from(y) + down).unwrap();
             tracer.trace(&ray, &query, &mut path);
-            sum += path.direction.map_or(0.0, |[theta, phi]| sky.radiance(theta, phi, 0.0).rgb[0]);
+            sum += path.direction.map_or(0.0, |[theta, phi]| sky.radiance(towards(theta, phi), 0.0).rgb[0]);
         }
         sum / f64::from(render.samples)
     };

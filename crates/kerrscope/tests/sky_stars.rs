@@ -7,7 +7,7 @@ use kerrscope::camera::Camera;
 use kerrscope::light::Light;
 use kerrscope::render::{Replay, Stage, Tally};
 use kerrscope::scene::Scene;
-use kerrscope::sky::{Frame, Glow, Orientation, Sky, Star, Stars};
+use kerrscope::sky::{Frame, Glow, Orientation, Sky, Star, Stars, towards};
 
 /// Right ascension in hours, minutes and seconds, declination in degrees, minutes and seconds,
 /// magnitude and B − V.
@@ -174,7 +174,7 @@ fn the_cameras_rays_and_the_orientation_agree() {
     let orientation = Orientation::celestial(Frame::Equatorial, Frame::Galactic, 0.3).turned([0.4, 0.5, 0.6]);
     for (longitude, latitude) in [(0.1, 0.2), (3.0, -1.2), (-2.0, 1.5)] {
         let [theta, phi] = orientation.scene_angles([longitude, latitude]);
-        assert!(angle(orientation.inwards(theta, phi), unit(longitude, latitude)) < 1e-14);
+        assert!(angle(orientation.inwards(towards(theta, phi)), unit(longitude, latitude)) < 1e-14);
     }
 }
 
@@ -188,7 +188,7 @@ fn light_around(stars: &Stars, [theta, phi]: [f64; 2], radius: f64) -> [f64; 3] 
             let [down, right] = [i, j].map(|k| (f64::from(k) + 0.5) * step - radius);
             if down.hypot(right) < radius {
                 let theta = theta + down;
-                sum += stars.radiance(theta, phi + right / theta.sin()) * (step * step);
+                sum += stars.radiance(towards(theta, phi + right / theta.sin())) * (step * step);
             }
         }
     }
@@ -213,7 +213,8 @@ fn a_stars_light_does_not_depend_on_the_pixels() {
         assert!((found / expected - 1.0).abs() < 5e-3, "{pixel} {found} {expected}");
         // Half-way out it is half as bright. Unit vectors are kept with 24 bits, 6e-8 of a radian.
         let [theta, phi] = place;
-        let (peak, half) = (stars.radiance(theta, phi), stars.radiance(theta + 0.5 * pixel, phi));
+        let (peak, half) =
+            (stars.radiance(towards(theta, phi)), stars.radiance(towards(theta + 0.5 * pixel, phi)));
         assert!((half.rgb[1] / peak.rgb[1] - 0.5).abs() < 0.01 + 3e-7 / pixel, "{pixel}");
     }
 }
@@ -235,7 +236,7 @@ fn every_star_is_seen_whatever_the_size_of_the_pixels() {
                 let (theta, phi) = (n[2].acos(), n[1].atan2(n[0]));
                 let theta = (theta + share * width * turn.cos()).clamp(1e-3, PI - 1e-3);
                 let phi = phi + share * width * turn.sin() / theta.sin();
-                let sight = orientation.inwards(theta, phi);
+                let sight = orientation.inwards(towards(theta, phi));
                 let expected: f64 = all
                     .iter()
                     .map(|(star, n)| {
@@ -247,7 +248,7 @@ fn every_star_is_seen_whatever_the_size_of_the_pixels() {
                         scale * ((1.0 - part) * core + part * halo) * 10_f64.powf(-0.4 * star.magnitude)
                     })
                     .sum();
-                let [r, g, b] = stars.radiance(theta, phi).rgb;
+                let [r, g, b] = stars.radiance(towards(theta, phi)).rgb;
                 let found = 0.2126 * r + 0.7152 * g + 0.0722 * b - 0.03 * Glow::brightness(sight);
                 // Unit vectors are kept with 24 bits, 6e-8 of a radian.
                 let error = (found - expected).abs();
@@ -265,7 +266,7 @@ fn the_milky_way_is_where_it_is() {
     let galactic = Orientation::celestial(Frame::Equatorial, Frame::Galactic, 0.0);
     let at = |longitude: f64, latitude: f64| {
         let [theta, phi] = [FRAC_PI_2 - latitude.to_radians(), longitude.to_radians()];
-        Glow::brightness(galactic.inwards(theta, phi))
+        Glow::brightness(galactic.inwards(towards(theta, phi)))
     };
     let mean = |latitude: f64| (0..360).map(|l| at(f64::from(l), latitude)).sum::<f64>() / 360.0;
     // Bright along the plane, dark at the poles, about as bright on both sides.
@@ -291,13 +292,13 @@ fn brightness_is_a_factor_and_light_is_finite_everywhere() {
     let [one, three] = [1.0, 3.0].map(|b| Stars::new(2e-3, Orientation::upright(0.0), b));
     for k in 0..2000 {
         let (theta, phi) = (1e-3 * PI * f64::from(k % 1000), 0.77 * f64::from(k));
-        let (a, b) = (one.radiance(theta, phi).rgb, three.radiance(theta, phi).rgb);
+        let (a, b) = (one.radiance(towards(theta, phi)).rgb, three.radiance(towards(theta, phi)).rgb);
         assert!((0..3).all(|k| a[k] > -1e-12 && (b[k] - 3.0 * a[k]).abs() <= 1e-6 * b[k]));
     }
     let sky = Sky::Stars(one);
     for bad in [f64::NAN, f64::INFINITY, -1e300] {
         for (theta, phi) in [(bad, 1.0), (1.0, bad)] {
-            assert!(sky.radiance(theta, phi, 1e-3).rgb.iter().all(|c| c.is_finite()));
+            assert!(sky.radiance(towards(theta, phi), 1e-3).rgb.iter().all(|c| c.is_finite()));
         }
     }
 }

@@ -27,9 +27,9 @@ use crate::light::{Light, Sheet};
 ///     opacity: 1.0,
 /// };
 /// assert_eq!(disk.normal(), [0.0, 0.0, 1.0]);
-/// let seen = disk.sheet(&DiskHit { radius: 9.0, position: [0.0, 9.0, 0.0] }).unwrap();
+/// let seen = disk.sheet(&disk.hit(9.0, [0.0, 9.0, 0.0])).unwrap();
 /// assert!(seen.opacity > 0.0 && seen.light.rgb[0] > seen.light.rgb[2]);
-/// assert!(disk.sheet(&DiskHit { radius: 5.0, position: [0.0, 5.0, 0.0] }).is_none());
+/// assert!(disk.sheet(&DiskHit { radius: 5.0, azimuth: 1.0 }).is_none());
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Disk {
@@ -62,10 +62,8 @@ pub enum Surface {
 pub struct DiskHit {
     /// The radius that is compared with the disk's own: that of Boyer–Lindquist.
     pub radius: f64,
-    /// The point in Cartesian coordinates. Only its azimuth in the plane counts, so its
-    /// distance from the origin need not be the radius (in Kerr–Schild coordinates it
-    /// is not).
-    pub position: [f64; 3],
+    /// The azimuth from the plane's ascending node; any number of turns.
+    pub azimuth: f64,
 }
 
 /// A point of a surface: what surfaces are functions of.
@@ -75,7 +73,7 @@ struct Place {
     radius: f64,
     /// 0 at the inner edge to 1 at the outer edge.
     across: f64,
-    /// Azimuth from the ascending node, −π to π.
+    /// Azimuth from the ascending node.
     azimuth: f64,
 }
 
@@ -83,6 +81,12 @@ impl Disk {
     /// The unit normal of the disk's plane.
     pub fn normal(&self) -> [f64; 3] {
         self.plane.normal()
+    }
+
+    /// The hit at a point in Cartesian coordinates with a radius of Boyer–Lindquist, which in Kerr–Schild
+    /// coordinates is not its distance from the origin.
+    pub fn hit(&self, radius: f64, position: [f64; 3]) -> DiskHit {
+        DiskHit { radius, azimuth: self.plane.azimuth(position) }
     }
 
     /// What a ray that meets the disk's plane there sees of it: nothing inside the inner
@@ -97,7 +101,7 @@ impl Disk {
             radius: hit.radius / self.outer,
             // A disk without width has no across.
             across: if across.is_finite() { across.clamp(0.0, 1.0) } else { 0.5 },
-            azimuth: self.plane.azimuth(hit.position),
+            azimuth: if hit.azimuth.is_finite() { hit.azimuth } else { 0.0 },
         };
         let sheet = match &self.surface {
             Surface::Ring(ring) => ring.at(place),

@@ -12,7 +12,7 @@ use crate::texture::Texture;
 /// A picture laid on a disk. Its alpha is the disk's opacity.
 ///
 /// ```
-/// use kerrscope::disk::{Disk, DiskHit, Mapping, Picture, Plane, Surface};
+/// use kerrscope::disk::{Disk, Mapping, Picture, Plane, Surface};
 /// use kerrscope::texture::Texture;
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("rings.png");
@@ -27,7 +27,7 @@ use crate::texture::Texture;
 ///     tint: [1.0; 3],
 ///     opacity: 1.0,
 /// };
-/// let at = |radius| disk.sheet(&DiskHit { radius, position: [radius, 0.0, 0.0] }).unwrap();
+/// let at = |radius| disk.sheet(&disk.hit(radius, [radius, 0.0, 0.0])).unwrap();
 /// assert_eq!(at(15.0).light.rgb, [1.0; 3]);
 /// assert_eq!(at(7.0).light.rgb, [0.0; 3]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())

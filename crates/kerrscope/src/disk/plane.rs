@@ -52,11 +52,17 @@ impl Plane {
         self.normal
     }
 
+    /// Components of a point along the ascending node and along the direction 90° ahead of it.
+    pub fn components(&self, position: [f64; 3]) -> [f64; 2] {
+        let along = |e: [f64; 3]| e[0] * position[0] + e[1] * position[1] + e[2] * position[2];
+        [along(self.node), along(self.ahead)]
+    }
+
     /// The azimuth of a point, from the ascending node, −π to π: 0 on the axis and where
     /// the point is not finite.
     pub fn azimuth(&self, position: [f64; 3]) -> f64 {
-        let along = |e: [f64; 3]| e[0] * position[0] + e[1] * position[1] + e[2] * position[2];
-        let azimuth = along(self.ahead).atan2(along(self.node));
+        let [node, ahead] = self.components(position);
+        let azimuth = ahead.atan2(node);
         if azimuth.is_nan() { 0.0 } else { azimuth }
     }
 }

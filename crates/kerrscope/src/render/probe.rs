@@ -1,7 +1,7 @@
 //! What a ray says for the data layers.
 
 use super::layer::{Channel, Layer, ORDERS};
-use crate::disk::{Disk, DiskHit};
+use crate::disk::Disk;
 use crate::scene::Scene;
 use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Side};
 use crate::spacetime::kerr::redshift_factor;
@@ -92,10 +92,10 @@ impl Probe {
 
 /// How far away the disk is where the ray first meets it.
 fn depth(ray: &Ray, path: &Path, disk: &Disk) -> f64 {
-    let met = path.crossings.iter().find(|c| {
-        let hit = DiskHit { radius: c.r, position: c.position };
-        disk.sheet(&hit).is_some_and(|sheet| sheet.opacity > 0.0)
-    });
+    let met = path
+        .crossings
+        .iter()
+        .find(|c| disk.sheet(&disk.hit(c.r, c.position)).is_some_and(|sheet| sheet.opacity > 0.0));
     let Some(crossing) = met else { return f64::INFINITY };
     if ray.side == Side::Ingoing {
         // What lies behind the change of sheets is known in other coordinates.

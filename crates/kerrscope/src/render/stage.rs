@@ -9,7 +9,7 @@ use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::{Beam, Light};
 use crate::scene::{self, Scene, ScreenKind, SkyPicture};
-use crate::sky::{Grid, Panorama, Sky, Stars, footprint};
+use crate::sky::{Grid, Panorama, Sky, Stars, footprint, towards};
 use crate::spacetime::Level;
 use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use crate::spacetime::observer::ObserverError;
@@ -65,7 +65,7 @@ pub struct Replay {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     beam: Beam,
-    sky: Option<[f64; 2]>,
+    sky: Option<Vec3<f64>>,
 }
 
 impl Stage {
@@ -84,7 +84,7 @@ impl Stage {
     pub fn with_level(scene: &Scene, level: Level) -> Result<Self, StageError> {
         let disk = scene.disk.as_ref().map(surface).transpose()?;
         let query = Query {
-            plane: disk.as_ref().map_or([0.0, 0.0, 1.0], Disk::normal),
+            plane: disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane).normal(),
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
             ..Query::default()
         };
@@ -160,9 +160,9 @@ impl Stage {
         self.audit
     }
 
-    /// Unit normal of the plane whose crossings rays report.
-    pub(super) fn normal(&self) -> Vec3<f64> {
-        self.query.plane
+    /// The plane whose crossings rays report.
+    pub(super) fn plane(&self) -> Plane {
+        self.disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane)
     }
 
     /// A pixel's running number along the rows.
@@ -264,7 +264,7 @@ impl Stage {
 
     /// A view's light, if the ray stands for an angle on the sky.
     fn light(&self, view: &View, angle: f64) -> Light {
-        let sky = view.sky.map_or(Light::DARK, |[theta, phi]| self.sky.radiance(theta, phi, angle));
+        let sky = view.sky.map_or(Light::DARK, |n| self.sky.radiance(n, angle));
         view.beam.end(sky)
     }
 
@@ -274,16 +274,17 @@ impl Stage {
         let mut paths = replay.paths.iter();
         for arrives in &replay.arrives {
             let path = if *arrives { paths.next() } else { None };
-            let hits = path.iter().flat_map(|path| &path.crossings);
-            let hits = hits.map(|c| DiskHit { radius: c.r, position: c.position });
-            replay.views.push(self.seen(hits, path.and_then(|path| path.direction)));
+            let crossings = path.iter().flat_map(|path| &path.crossings);
+            let hits = self.disk.iter().flat_map(|disk| crossings.clone().map(|c| disk.hit(c.r, c.position)));
+            let direction = path.and_then(|path| path.direction);
+            replay.views.push(self.seen(hits, direction.map(|[theta, phi]| towards(theta, phi))));
         }
         replay.points.clear();
     }
 
     /// What a ray sees that crosses the disk's plane in these places, in this order, and comes from a
     /// direction of the sky or from nowhere.
-    pub(super) fn seen(&self, hits: impl Iterator<Item = DiskHit>, direction: Option<[f64; 2]>) -> View {
+    pub(super) fn seen(&self, hits: impl Iterator<Item = DiskHit>, direction: Option<Vec3<f64>>) -> View {
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
             for hit in hits {

@@ -1,7 +1,9 @@
 //! How much of the sky a ray stands for.
 
+use crate::spacetime::tensor::Vec3;
+
 /// The angle in radians on the sky that each of a pixel's rays stands for, given the directions
-/// (θ, φ) of those that see the sky.
+/// of those that see the sky.
 ///
 /// Where the pixel's map to the sky is linear, its stretches being s₁ and s₂ along two axes at
 /// right angles (in radians a pixel), the variance of n rays' directions spread evenly over the
@@ -14,19 +16,17 @@
 /// of a ray that nothing bends.
 ///
 /// ```
-/// use kerrscope::sky::footprint;
+/// use kerrscope::sky::{footprint, towards};
 /// use std::f64::consts::FRAC_PI_2;
 /// // Four rays, 1e-3 from each other both ways.
 /// let [a, b] = [FRAC_PI_2, FRAC_PI_2 + 1e-3];
-/// let square = [[a, 0.0], [a, 1e-3], [b, 0.0], [b, 1e-3]];
+/// let square = [towards(a, 0.0), towards(a, 1e-3), towards(b, 0.0), towards(b, 1e-3)];
 /// assert!((footprint(square, 1.0) - 0.87e-3).abs() < 1e-5);
-/// assert_eq!(footprint([[1.0, 2.0]], 1.0), 1.0);
+/// assert_eq!(footprint([towards(1.0, 2.0)], 1.0), 1.0);
 /// ```
-pub fn footprint(directions: impl IntoIterator<Item = [f64; 2]>, unbent: f64) -> f64 {
+pub fn footprint(directions: impl IntoIterator<Item = Vec3<f64>>, unbent: f64) -> f64 {
     let (mut sum, mut rays) = ([0.0; 3], 0.0);
-    for [theta, phi] in directions {
-        let ((sin, cos), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
-        let n = [sin * cos_phi, sin * sin_phi, cos];
+    for n in directions {
         sum = std::array::from_fn(|k| sum[k] + n[k]);
         rays += 1.0;
     }

@@ -2,7 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use super::angles;
 use crate::light::Light;
+use crate::spacetime::tensor::Vec3;
 
 /// Width of an ordinary line, as an angle on the sky: 0.4°.
 const WIDTH: f64 = 0.4 * PI / 180.0;
@@ -35,12 +37,12 @@ const TINTS: [[f64; 3]; 4] = [
 ///
 /// ```
 /// use kerrscope::light::Light;
-/// use kerrscope::sky::Grid;
+/// use kerrscope::sky::{Grid, towards};
 /// use std::f64::consts::FRAC_PI_2;
 /// let grid = Grid::new(15_f64.to_radians(), Light::new([0.8; 3]), 1.0);
 /// // On the equator one sees the line; between the lines only the tint.
-/// assert_eq!(grid.radiance(FRAC_PI_2, 1.0).rgb, [0.8; 3]);
-/// assert!(grid.radiance(1.44, 1.44).rgb[0] < 0.1);
+/// assert_eq!(grid.radiance(towards(FRAC_PI_2, 1.0)).rgb, [0.8; 3]);
+/// assert!(grid.radiance(towards(1.44, 1.44)).rgb[0] < 0.1);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
@@ -71,9 +73,8 @@ impl Grid {
     }
 
     /// The light that comes from a direction.
-    pub fn radiance(&self, theta: f64, phi: f64) -> Light {
-        let theta = if theta.is_finite() { theta.clamp(0.0, PI) } else { 0.0 };
-        let phi = if phi.is_finite() { phi } else { 0.0 };
+    pub fn radiance(&self, n: Vec3<f64>) -> Light {
+        let [theta, phi] = angles(n);
         let (sin, latitude) = (theta.sin(), FRAC_PI_2 - theta);
 
         // Angle to the great circle of a meridian: asin(sin theta · |sin(phi − phi₀)|).

@@ -71,12 +71,8 @@ impl Orientation {
         Self { inwards: product(self.inwards, back) }
     }
 
-    /// The sky's own unit vector towards a direction of the scene. A number that is not finite
-    /// counts as 0.
-    pub fn inwards(&self, theta: f64, phi: f64) -> [f64; 3] {
-        let [theta, phi] = [theta, phi].map(|x| if x.is_finite() { x } else { 0.0 });
-        let ((sin, cos), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
-        let n = [sin * cos_phi, sin * sin_phi, cos];
+    /// The sky's own unit vector towards a direction of the scene.
+    pub fn inwards(&self, n: [f64; 3]) -> [f64; 3] {
         self.inwards.map(|row| row[0] * n[0] + row[1] * n[1] + row[2] * n[2])
     }
 

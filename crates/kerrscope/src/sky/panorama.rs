@@ -2,8 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::Orientation;
+use super::{Orientation, angles};
 use crate::light::Light;
+use crate::spacetime::tensor::Vec3;
 use crate::texture::{Sphere, Texture};
 
 /// An equirectangular picture of the sky, as seen from inside.
@@ -24,7 +25,7 @@ use crate::texture::{Sphere, Texture};
 /// Transparent parts of the picture are dark.
 ///
 /// ```
-/// use kerrscope::sky::{Orientation, Panorama};
+/// use kerrscope::sky::{Orientation, Panorama, towards};
 /// use kerrscope::texture::Texture;
 /// use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 /// # let folder = tempfile::tempdir()?;
@@ -33,8 +34,8 @@ use crate::texture::{Sphere, Texture};
 /// image::save_buffer(&path, &[0, 0, 255, 255], 4, 1, image::ColorType::L8)?;
 /// let sky = Panorama::new(Texture::load(&path)?, Orientation::upright(0.0), 2.0);
 /// // Facing +x, which is the picture's middle, the right is at negative azimuth.
-/// assert_eq!(sky.radiance(FRAC_PI_2, -FRAC_PI_4, 0.001).rgb, [2.0; 3]);
-/// assert_eq!(sky.radiance(FRAC_PI_2, FRAC_PI_4, 0.001).rgb, [0.0; 3]);
+/// assert_eq!(sky.radiance(towards(FRAC_PI_2, -FRAC_PI_4), 0.001).rgb, [2.0; 3]);
+/// assert_eq!(sky.radiance(towards(FRAC_PI_2, FRAC_PI_4), 0.001).rgb, [0.0; 3]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -51,9 +52,9 @@ impl Panorama {
     }
 
     /// The light that comes from a direction, for a ray that stands for an angle on the sky.
-    pub fn radiance(&self, theta: f64, phi: f64, angle: f64) -> Light {
-        let [x, y, z] = self.orientation.inwards(theta, phi);
-        let (u, v) = (0.5 - y.atan2(x) / TAU, x.hypot(y).atan2(z) / PI);
+    pub fn radiance(&self, n: Vec3<f64>, angle: f64) -> Light {
+        let [theta, phi] = angles(self.orientation.inwards(n));
+        let (u, v) = (0.5 - phi / TAU, theta / PI);
         self.picture.sample(u, v, angle).light * self.brightness
     }
 }

@@ -8,6 +8,7 @@ use super::cube::{self, Place};
 use super::glow::Glow;
 use super::orientation::{Orientation, vector};
 use crate::light::Light;
+use crate::spacetime::tensor::Vec3;
 
 /// Solid angle of white, in steradians, that shines as much as a star of magnitude 0.
 const MAGNITUDE_ZERO: f64 = 1e-4;
@@ -131,8 +132,8 @@ impl Stars {
     }
 
     /// The light that comes from a direction.
-    pub fn radiance(&self, theta: f64, phi: f64) -> Light {
-        let n = self.orientation.inwards(theta, phi);
+    pub fn radiance(&self, n: Vec3<f64>) -> Light {
+        let n = self.orientation.inwards(n);
         let mut light = self.glow * Glow::brightness(n);
         let cell = cell(cube::place(n), self.cells);
         for spot in &self.spots[self.begin[cell] as usize..self.begin[cell + 1] as usize] {

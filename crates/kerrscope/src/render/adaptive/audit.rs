@@ -53,8 +53,8 @@ impl Comparison {
     /// Traces the samples, and tells the tally of the differences.
     pub(super) fn judge(&self, stage: &Stage, replay: &mut Replay, tally: &mut Tally) {
         let mut exact = Knots::default();
-        let normal = stage.normal();
-        stage.trace(&self.points, replay, tally, |path| exact.push(path, &normal));
+        let plane = stage.plane();
+        stage.trace(&self.points, replay, tally, |path| exact.push(path, &plane));
         let found = &mut tally.interpolation;
         for knot in 0..exact.count() as u32 {
             found.compared += 1;

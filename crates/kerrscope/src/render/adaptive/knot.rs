@@ -1,14 +1,16 @@
 //! What is interpolated: the answers of traced rays as smooth numbers.
 //!
-//! Of each crossing 1/r and the unit vector to it, of light that escapes the unit vector to where it comes
-//! from. Unlike r itself, 1/r is smooth where a crossing goes off to infinity, and unlike angles vectors are
+//! Of each crossing 1/r and the unit vector to it within the plane, of light that escapes the unit vector to
+//! where it comes from. Unlike r itself, 1/r is smooth where a crossing goes off to infinity, and unlike angles vectors are
 //! smooth across the axis and once around.
 
+use crate::disk::Plane;
+use crate::sky::towards;
 use crate::spacetime::geodesic::{Fate, Path};
-use crate::spacetime::tensor::{Vec3, dot};
+use crate::spacetime::tensor::dot;
 
-/// Numbers of a crossing: 1/r, then the unit vector.
-pub(super) const CROSSING: usize = 4;
+/// Numbers of a crossing: 1/r, then cosine and sine of its azimuth in the plane.
+pub(super) const CROSSING: usize = 3;
 
 /// Rays are interpolated among those of one kind.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -57,17 +59,18 @@ impl Knots {
         self.kinds.len()
     }
 
-    /// Adds a ray that was traced; none if no photon arrives there. `normal` is that of the plane.
-    pub(super) fn push(&mut self, path: Option<&Path>, normal: &Vec3<f64>) {
+    /// Adds a ray that was traced; none if no photon arrives there.
+    pub(super) fn push(&mut self, path: Option<&Path>, plane: &Plane) {
         self.starts.push(self.numbers.len() as u32);
-        self.kinds.push(path.map_or(Kind::Nothing, |path| kind(path, normal)));
+        self.kinds.push(path.map_or(Kind::Nothing, |path| kind(path, plane)));
         let Some(path) = path else { return };
         for crossing in &path.crossings {
-            let inverse = dot(&crossing.position, &crossing.position).sqrt().recip();
+            let along = plane.components(crossing.position);
+            let inverse = along[0].hypot(along[1]).recip();
             self.numbers.push(crossing.r.recip());
-            self.numbers.extend(crossing.position.map(|c| c * inverse));
+            self.numbers.extend(along.map(|c| c * inverse));
         }
-        self.numbers.extend(path.direction.iter().flat_map(unit));
+        self.numbers.extend(path.direction.iter().flat_map(|&[theta, phi]| towards(theta, phi)));
     }
 
     /// Adds a ray of a kind with its numbers.
@@ -90,35 +93,29 @@ impl Knots {
 /// The largest difference between two rays of a kind: relative in the radii of crossings, radians in their
 /// azimuths and in the direction.
 pub(super) fn difference(kind: Kind, exact: &[f64], found: &[f64]) -> f64 {
-    let angle = |first: usize| {
-        let exact: Vec3<f64> = std::array::from_fn(|i| exact[first + i]);
-        let found: Vec3<f64> = std::array::from_fn(|i| found[first + i]);
-        let inverse = dot(&found, &found).sqrt().recip();
-        let chord: Vec3<f64> = std::array::from_fn(|i| found[i] * inverse - exact[i]);
-        dot(&chord, &chord).sqrt()
+    // Between vectors, of which the exact one has the length 1.
+    let angle = |first: usize, components: usize| {
+        let (exact, found) = (&exact[first..first + components], &found[first..first + components]);
+        let inverse = found.iter().map(|c| c * c).sum::<f64>().sqrt().recip();
+        let chord = exact.iter().zip(found).map(|(a, b)| (b * inverse - a).powi(2)).sum::<f64>();
+        chord.sqrt()
     };
     let radius = |first: usize| (exact[first] / found[first] - 1.0).abs();
     let crossings = (0..kind.crossings()).map(|k| CROSSING * k);
-    let errors = crossings.flat_map(|first| [radius(first), angle(first + 1)]);
+    let errors = crossings.flat_map(|first| [radius(first), angle(first + 1, 2)]);
     // What is not a number is no small error.
     let worse = |worst: f64, error: f64| if error <= worst { worst } else { error };
-    errors.chain(kind.direction().map(angle)).fold(0.0, worse)
+    errors.chain(kind.direction().map(|first| angle(first, 3))).fold(0.0, worse)
 }
 
-fn kind(path: &Path, normal: &Vec3<f64>) -> Kind {
+fn kind(path: &Path, plane: &Plane) -> Kind {
     let Ok(crossings) = u8::try_from(path.crossings.len()) else { return Kind::Unknown };
     let known = path.crossings.iter().all(|c| c.r > 0.0 && c.position.iter().all(|c| c.is_finite()));
     match (path.fate, path.direction) {
-        (Fate::Escaped, Some(direction)) if known && direction.iter().all(|c| c.is_finite()) => {
-            Kind::Escaped { crossings, above: dot(&unit(&direction), normal) > 0.0 }
+        (Fate::Escaped, Some([theta, phi])) if known && theta.is_finite() && phi.is_finite() => {
+            Kind::Escaped { crossings, above: dot(&towards(theta, phi), &plane.normal()) > 0.0 }
         }
         (Fate::Captured, _) if known => Kind::Captured { crossings },
         _ => Kind::Unknown,
     }
-}
-
-/// The unit vector to a direction (θ, φ).
-fn unit([theta, phi]: &[f64; 2]) -> Vec3<f64> {
-    let ((sin_theta, cos_theta), (sin_phi, cos_phi)) = (theta.sin_cos(), phi.sin_cos());
-    [sin_theta * cos_phi, sin_theta * sin_phi, cos_theta]
 }

@@ -47,8 +47,8 @@ impl Mesh {
                 new.push([place(self.corner[0], x), place(self.corner[1], y)]);
             }
         }
-        let (knots, normal) = (&mut self.knots, stage.normal());
-        stage.trace(&new, replay, tally, |path| knots.push(path, &normal));
+        let (knots, plane) = (&mut self.knots, stage.plane());
+        stage.trace(&new, replay, tally, |path| knots.push(path, &plane));
     }
 
     /// The ray at a point, which must have been traced.

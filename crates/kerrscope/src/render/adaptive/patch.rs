@@ -90,19 +90,28 @@ impl OnLanes for Evaluate<'_> {
         values.clear();
         values.resize(patches.len() * count, 0.0);
         for first in (0..count).step_by(8) {
-            // The last lanes repeat earlier points where eight are no longer there.
-            let width = (count - first).min(8);
-            let (mut px, mut py) = ([0.0; 8], [0.0; 8]);
-            px[..width].copy_from_slice(&x[first..first + width]);
-            py[..width].copy_from_slice(&y[first..first + width]);
-            let (px, py) = (Lanes::new(simd, px), Lanes::new(simd, py));
+            let (px, py) = (take(simd, x, first), take(simd, y, first));
             for (number, patch) in patches.iter().enumerate() {
-                let found = patch.at(px, py).to_array();
-                let place = number * count + first;
-                values[place..place + width].copy_from_slice(&found[..width]);
+                put(patch.at(px, py), &mut values[number * count..(number + 1) * count], first);
             }
         }
     }
+}
+
+/// Eight numbers from a place on; zeros where there are no more.
+#[inline(always)]
+pub(super) fn take<L: Simd>(simd: L, numbers: &[f64], first: usize) -> Lanes<L> {
+    let mut eight = [0.0; 8];
+    let width = (numbers.len() - first).min(8);
+    eight[..width].copy_from_slice(&numbers[first..first + width]);
+    Lanes::new(simd, eight)
+}
+
+/// Puts eight numbers from a place on, as many as there is room for.
+#[inline(always)]
+pub(super) fn put<L: Simd>(eight: Lanes<L>, numbers: &mut [f64], first: usize) {
+    let width = (numbers.len() - first).min(8);
+    numbers[first..first + width].copy_from_slice(&eight.to_array()[..width]);
 }
 
 #[cfg(test)]
