@@ -2,6 +2,7 @@
 
 mod resume;
 mod shadow;
+mod speed;
 
 use std::path::Path;
 use std::time::Instant;
@@ -13,8 +14,9 @@ pub fn run(root: &Path, name: &str) -> Result<(), String> {
     let (passed, body) = match name {
         "shadow" => shadow::run()?,
         "resume" => resume::run(root)?,
+        "speed" => speed::run(root)?,
         "fuzz" => super::fuzz::campaign(root)?,
-        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, resume, fuzz")),
+        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, resume, speed, fuzz")),
     };
     let date = OffsetDateTime::now_utc().date();
     let verdict = if passed { "passed" } else { "FAILED" };

@@ -5,14 +5,18 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// The picture: fig. 4.8 of the thesis, larger, with data layers.
-const ARGUMENTS: [&str; 9] = [
+/// The picture: fig. 4.8 of the thesis, larger, every sample traced, with data layers.
+const ARGUMENTS: [&str; 13] = [
     "render",
     "scenes/thesis-4.8.toml",
     "--set",
     "render.width=800",
     "--set",
     "render.height=450",
+    "--set",
+    "render.samples=64",
+    "--set",
+    "render.adaptive=false",
     "--set",
     "render.layers=[\"g\", \"sky_phi\"]",
     "--resume",

@@ -64,7 +64,7 @@ impl Tally {
         }
         // The exponent of a positive number is that of the power of two below it.
         let exponent = (estimate.abs().to_bits() >> 52) as i32 - 1023;
-        self.octaves[(exponent - LOWEST).clamp(0, OCTAVES as i32 - 1) as usize] += 1;
+        self.octaves[usize::try_from(exponent - LOWEST).unwrap_or(0).min(OCTAVES - 1)] += 1;
     }
 
     /// Adds the counts of other rays. The order does not matter.
