@@ -10,7 +10,7 @@ use super::distant::{self, Distant};
 use super::horizons::Horizons;
 use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::Photon;
-use super::polar::{FEW, FEW_REACH, SOME, SOME_REACH, size_of_nome};
+use super::polar::{FEW, FEW_REACH, LARGE, LARGE_REACH, SOME, SOME_REACH, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::Sweep;
 use super::series::Cosines;
@@ -41,6 +41,8 @@ pub struct Shared {
     pub few: Cosines<FEW>,
     /// The same for larger nomes.
     pub some: Cosines<SOME>,
+    /// The same for large ones.
+    pub large: Box<Cosines<LARGE>>,
     /// Cosines of the series of distant motion.
     pub distant: Cosines<{ distant::TERMS }>,
 }
@@ -64,8 +66,8 @@ const NUMBERS: usize = 12;
 /// Rays that are followed alike.
 struct Group {
     kind: Kind,
-    /// Whether their motion in θ needs [`SOME`] terms.
-    far_from_circular: bool,
+    /// How many terms their motion in θ needs: 0 for [`FEW`], 1 for [`SOME`], 2 for [`LARGE`].
+    width: usize,
     escapes: bool,
     ready: Vec<Ready>,
 }
@@ -107,18 +109,20 @@ impl Groups {
         let mut groups = Vec::new();
         for kind in Kind::ALL {
             for escapes in [false, true] {
-                groups.push(Group { kind, far_from_circular: false, escapes, ready: Vec::new() });
+                groups.push(Group { kind, width: 0, escapes, ready: Vec::new() });
             }
         }
-        for escapes in [false, true] {
-            groups.push(Group { kind: Kind::Plain, far_from_circular: true, escapes, ready: Vec::new() });
+        for width in [1, 2] {
+            for escapes in [false, true] {
+                groups.push(Group { kind: Kind::Plain, width, escapes, ready: Vec::new() });
+            }
         }
         Self(groups)
     }
 
     /// The group of a kind, and of those whose motion in θ needs more terms.
-    fn of(&mut self, kind: Kind, far_from_circular: bool, escapes: bool) -> &mut Vec<Ready> {
-        let number = if far_from_circular { Kind::ALL.len() } else { kind as usize };
+    fn of(&mut self, kind: Kind, width: usize, escapes: bool) -> &mut Vec<Ready> {
+        let number = if width > 0 { Kind::ALL.len() + width - 1 } else { kind as usize };
         &mut self.0[2 * number + usize::from(escapes)].ready
     }
 
@@ -149,7 +153,8 @@ impl Groups {
                 }
                 let kind =
                     Kind::of([&prepared.plain, &prepared.spread, &prepared.distant].map(is), query.elapsed);
-                if is(&prepared.wide) && kind != Kind::Plain {
+                let width = prepared.width[lane] as usize;
+                if width > 0 && kind != Kind::Plain {
                     rest(first + lane);
                     continue;
                 }
@@ -166,24 +171,29 @@ impl Groups {
                 for (number, values) in numbers.iter_mut().zip(&prepared.numbers) {
                     *number = values[lane];
                 }
-                self.of(kind, is(&prepared.wide), escapes)
-                    .push(Ready { ray: (first + lane) as u32, numbers });
+                self.of(kind, width, escapes).push(Ready { ray: (first + lane) as u32, numbers });
             }
         }
         for group in &self.0 {
             let work = Work { shared, query, group };
-            match (group.kind, query.elapsed, group.far_from_circular) {
-                (Kind::Plain, false, false) => {
+            match (group.kind, query.elapsed, group.width) {
+                (Kind::Plain, false, 0) => {
                     work.sweep::<L, true, false, false, FEW>(simd, &shared.few, paths);
                 }
-                (Kind::Plain, true, false) => {
+                (Kind::Plain, true, 0) => {
                     work.sweep::<L, true, true, false, FEW>(simd, &shared.few, paths);
                 }
-                (Kind::Plain, false, true) => {
+                (Kind::Plain, false, 1) => {
                     work.sweep::<L, true, false, false, SOME>(simd, &shared.some, paths);
                 }
-                (Kind::Plain, true, true) => {
+                (Kind::Plain, true, 1) => {
                     work.sweep::<L, true, true, false, SOME>(simd, &shared.some, paths);
+                }
+                (Kind::Plain, false, _) => {
+                    work.sweep::<L, true, false, false, LARGE>(simd, &shared.large, paths);
+                }
+                (Kind::Plain, true, _) => {
+                    work.sweep::<L, true, true, false, LARGE>(simd, &shared.large, paths);
                 }
                 (Kind::Factored, false, _) => {
                     work.sweep::<L, false, false, false, FEW>(simd, &shared.few, paths);
@@ -211,8 +221,8 @@ struct Prepared {
     sensitivity: [f64; WIDTH],
     /// Captured without meeting the plane.
     planar: [f64; WIDTH],
-    /// Motion in θ of a large nome.
-    wide: [f64; WIDTH],
+    /// The [`Group::width`] of their motion in θ.
+    width: [f64; WIDTH],
     /// Not for lanes.
     careful: [f64; WIDTH],
 }
@@ -247,8 +257,9 @@ fn prepare<L: Simd>(simd: L, shared: &Shared, rays: &[Ray]) -> Prepared {
     let planar = below * (one - class.escapes);
     fine *= above.max(planar);
     let nome = size_of_nome(&photon);
-    fine *= Lanes::select(nome.less(zero.constant(SOME_REACH)), one, planar);
-    let wide = Lanes::select(nome.less(zero.constant(FEW_REACH)), zero, one - planar);
+    let beyond = |reach: f64| Lanes::select(nome.less(zero.constant(reach)), zero, one - planar);
+    fine *= one - beyond(LARGE_REACH);
+    let width = beyond(FEW_REACH) + beyond(SOME_REACH);
     // The axis, and rays that graze the critical curve by less than any digit.
     fine *= Lanes::select((photon.mu * photon.mu).less(one), one, zero);
     fine *= Lanes::select(class.sensitivity.less(zero.constant(1e12)), one, zero);
@@ -277,7 +288,7 @@ fn prepare<L: Simd>(simd: L, shared: &Shared, rays: &[Ray]) -> Prepared {
         escapes: class.escapes.to_array(),
         sensitivity: class.sensitivity.to_array(),
         planar: planar.to_array(),
-        wide: wide.to_array(),
+        width: width.to_array(),
         careful: (one - fine).to_array(),
     }
 }

@@ -30,6 +30,12 @@ pub const SOME: usize = 16;
 /// The largest |q| for [`SOME`] terms.
 pub const SOME_REACH: f64 = 0.15;
 
+/// Terms that are enough up to |q| = [`LARGE_REACH`]: light that plunges with b ≲ 1 M.
+pub const LARGE: usize = 48;
+
+/// The largest |q| for [`LARGE`] terms.
+pub const LARGE_REACH: f64 = 0.45;
+
 /// Terms that are enough for any photon: |q| nears 1 only for light that all but falls straight in.
 pub const MANY: usize = 160;
 
@@ -116,7 +122,11 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
             q = l * (l4 * (l4 * 15.0 + 2.0) + 1.0);
         } else {
             // −q is the nome of the parameter k/(1 + k).
-            let iterations = if N == SOME { 7 } else { 40 };
+            let iterations = match N {
+                SOME => 7,
+                LARGE => 9,
+                _ => 40,
+            };
             mean = mean_with_one(complement, iterations);
             let other = (k / (k + 1.0)).sqrt();
             let ratio = mean_with_one(complement.recip(), iterations) / mean_with_one(other, iterations);
@@ -187,6 +197,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
     const STEPS: usize = match N {
         FEW => 2,
         SOME => 5,
+        LARGE => 12,
         _ => 60,
     };
 

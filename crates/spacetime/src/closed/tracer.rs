@@ -8,7 +8,7 @@ use super::distant::Distant;
 use super::horizons::Horizons;
 use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::Photon;
-use super::polar::{FEW, FEW_REACH, MANY, SOME, SOME_REACH, frequency, size_of_nome};
+use super::polar::{FEW, FEW_REACH, LARGE, LARGE_REACH, MANY, SOME, SOME_REACH, frequency, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::Sweep;
 use super::series::Cosines;
@@ -71,6 +71,7 @@ impl ClosedForm {
             plain: Nodes::new(nodes.max(PLAIN_NODES)),
             few: Cosines::new(),
             some: Cosines::new(),
+            large: Box::new(Cosines::new()),
             distant: Cosines::new(),
         };
         let fallback = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps);
@@ -126,6 +127,9 @@ impl ClosedForm {
                 }
                 ..=SOME_REACH => {
                     kernel::follow::<_, R, SOME, TIMED>(start, radial, &shared.some, escapes, count, meet)
+                }
+                ..=LARGE_REACH => {
+                    kernel::follow::<_, R, LARGE, TIMED>(start, radial, &shared.large, escapes, count, meet)
                 }
                 _ => kernel::follow::<_, R, MANY, TIMED>(start, radial, &self.many, escapes, count, meet),
             }
