@@ -5,6 +5,7 @@
 //! (`weierstrass`); azimuth and time along the radial motion are regularised integrals, done by
 //! Gauss–Legendre quadrature in a variable that is smooth up to the critical curve (`radial`).
 //!
+//!
 //! This is independent of the integrator but for the constants of a ray, and each tests the other.
 //!
 //! Literature: Dexter & Agol 2009, ApJ 696, 1616; Gralla & Lupsasca 2020, PRD 101, 044032; Cieślik & Mach
@@ -17,6 +18,7 @@ mod factors;
 mod horizons;
 mod kernel;
 mod photon;
+mod planar;
 mod polar;
 mod quadrature;
 mod radial;
