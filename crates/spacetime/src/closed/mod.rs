@@ -5,6 +5,7 @@
 //! (`weierstrass`); azimuth and time along the radial motion are regularised integrals, done by
 //! Gauss–Legendre quadrature in a variable that is smooth up to the critical curve (`radial`).
 //!
+//! All of it is generic over its [`Scalar`](crate::Scalar): [`Impact`] gives derivatives of what a ray meets.
 //!
 //! This is independent of the integrator but for the constants of a ray, and each tests the other.
 //!
@@ -16,6 +17,7 @@ mod course;
 mod distant;
 mod factors;
 mod horizons;
+mod impact;
 mod kernel;
 mod photon;
 mod planar;
@@ -27,6 +29,7 @@ mod tracer;
 mod vortical;
 mod weierstrass;
 
+pub use impact::{Impact, ImpactCrossing, ImpactPath, Tables};
 pub use quadrature::Nodes;
 pub(crate) use tracer::windings;
 pub use tracer::{ClosedForm, NODES};
