@@ -158,6 +158,7 @@ impl<S: Scalar, const N: usize> MulAssign for Dual<S, N> {
 impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     type Mask = S::Mask;
     const LANES: usize = S::LANES;
+    const ORDER: usize = S::ORDER + 1;
 
     #[inline(always)]
     fn constant(self, value: f64) -> Self {
@@ -212,6 +213,10 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     #[inline(always)]
     fn outline<R>(self, part: impl FnOnce() -> R) -> R {
         self.value.outline(part)
+    }
+    #[inline(always)]
+    fn still(self) -> Self {
+        Self::fixed(self.value.still())
     }
     #[inline(always)]
     fn any(mask: Self::Mask) -> bool {

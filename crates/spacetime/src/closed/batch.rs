@@ -365,6 +365,7 @@ impl Work<'_> {
                 end: Lanes::new(simd, end),
             },
             azimuth: Lanes::new(simd, azimuth),
+            heading: [lambda, Lanes::new(simd, mu_rate)],
             horizons: Horizons::new(spin),
         }
     }

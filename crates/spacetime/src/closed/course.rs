@@ -92,7 +92,8 @@ impl<S: Scalar> Class<S> {
     /// u₂. If U has no such zeros outside the horizon, light goes on as it began.
     #[inline(always)]
     pub fn of(photon: &Photon<S>, rim: S) -> Self {
-        let potential = Potential::new(photon);
+        let photon = photon.still();
+        let potential = Potential::new(&photon);
         let least = potential.least();
         let value = potential.at(least);
         let (zero, one) = (rim.constant(0.0), rim.constant(1.0));

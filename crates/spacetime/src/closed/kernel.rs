@@ -16,6 +16,8 @@ pub struct Start<S> {
     pub course: Course<S>,
     /// Boyer–Lindquist azimuth of the camera.
     pub azimuth: S,
+    /// λ and μ′ but for a positive factor: on the axis, where both vanish, their ratio is that of α and β.
+    pub heading: [S; 2],
     /// The hole's horizons.
     pub horizons: Horizons<S>,
 }
@@ -69,7 +71,7 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
 ) -> [S; 2] {
     let oscillation = start.azimuth.outline(
         #[inline(always)]
-        || Oscillation::<S, N>::new::<TIMED>(&start.photon, cosines),
+        || Oscillation::<S, N>::new::<TIMED>(&start.photon, start.heading, cosines),
     );
     let total = radial.total();
     let mut n = oscillation.first();

@@ -5,6 +5,8 @@
 //! (`weierstrass`); azimuth and time along the radial motion are regularised integrals, done by
 //! Gauss–Legendre quadrature in a variable that is smooth up to the critical curve (`radial`).
 //!
+//! All of it is generic over its [`Scalar`](crate::Scalar): [`Impact`] gives derivatives of what a ray meets.
+//!
 //! This is independent of the integrator but for the constants of a ray, and each tests the other.
 //!
 //! Literature: Dexter & Agol 2009, ApJ 696, 1616; Gralla & Lupsasca 2020, PRD 101, 044032; Cieślik & Mach
@@ -15,8 +17,10 @@ mod course;
 mod distant;
 mod factors;
 mod horizons;
+mod impact;
 mod kernel;
 mod photon;
+mod planar;
 mod polar;
 mod quadrature;
 mod radial;
@@ -25,6 +29,7 @@ mod tracer;
 mod vortical;
 mod weierstrass;
 
+pub use impact::{Impact, ImpactCrossing, ImpactPath, Tables};
 pub use quadrature::Nodes;
 pub(crate) use tracer::windings;
 pub use tracer::{ClosedForm, NODES};

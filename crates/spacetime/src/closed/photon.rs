@@ -56,6 +56,22 @@ impl<S: Scalar> Photon<S> {
     }
 }
 
+impl<S: Scalar> Photon<S> {
+    /// The same photon without derivatives.
+    #[inline(always)]
+    pub fn still(&self) -> Self {
+        Self {
+            spin: self.spin.still(),
+            lambda: self.lambda.still(),
+            eta: self.eta.still(),
+            u: self.u.still(),
+            u_rate: self.u_rate.still(),
+            mu: self.mu.still(),
+            mu_rate: self.mu_rate.still(),
+        }
+    }
+}
+
 /// The radial potential U.
 #[derive(Clone, Copy, Debug)]
 pub struct Potential<S> {
@@ -75,6 +91,12 @@ impl<S: Scalar> Potential<S> {
         let s2 = spin * spin;
         let offset = lambda - spin;
         Self { b: s2 - lambda * lambda - eta, c: offset.mul_add(offset, eta), q: s2 * eta }
+    }
+
+    /// The same without derivatives.
+    #[inline(always)]
+    pub fn still(&self) -> Self {
+        Self { b: self.b.still(), c: self.c.still(), q: self.q.still() }
     }
 
     /// U(u).

@@ -93,7 +93,7 @@ pub fn size_of_nome<S: Scalar>(photon: &Photon<S>) -> S {
 #[inline(always)]
 fn mean_with_one<S: Scalar>(x: S, iterations: usize) -> S {
     let (mut a, mut g) = (x.constant(1.0), x);
-    for _ in 1..iterations {
+    for _ in 1..iterations + S::ORDER {
         (a, g) = ((a + g) * 0.5, (a * g).sqrt());
     }
     (a + g) * 0.5
@@ -109,7 +109,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
     /// The oscillation of a photon with η > 0, w₊ > 0 and |q| within the reach of N terms; with the integral of
     /// s²μ² if `TIMED`.
     #[inline(always)]
-    pub fn new<const TIMED: bool>(photon: &Photon<S>, table: &Cosines<N>) -> Self {
+    pub fn new<const TIMED: bool>(photon: &Photon<S>, heading: [S; 2], table: &Cosines<N>) -> Self {
         let Photon { spin, lambda, mu, mu_rate, .. } = *photon;
         let s2 = spin * spin;
         let [m, k] = modulus(photon);
@@ -163,7 +163,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
 
         let sin = mu * (s2 * mu).mul_add(mu, m).sqrt();
         let psi = sin.atan2(mu_rate);
-        let sign = S::select(lambda.less(zero), zero.constant(-1.0), zero.constant(1.0));
+        let sign = S::select(heading[0].less(zero), zero.constant(-1.0), zero.constant(1.0));
         let mut phase = psi;
         if N == FEW {
             // X ≈ ψ − c₁ sin 2ψ is off by less than 2c₁², c₁ = 2q/(1 + q²).
@@ -185,19 +185,19 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
         let double = phase * 2.0;
         let at = double.sin_cos();
         let start = [
-            (lambda.abs() * sin).atan2(root_b * mu_rate),
+            (heading[0] * sign * sin).atan2(root_b * heading[1]),
             azimuth.at(double, at) * 0.5,
             if TIMED { height.at(double, at) * 0.5 } else { zero },
         ];
-        let (lambda, rate) = ([lambda.abs(), sign], [rate, per_rate]);
+        let (lambda, rate) = ([lambda * sign, sign], [rate, per_rate]);
         Self { reach: photon.eta / m, rate, phase, lambda, root_b, series, azimuth, height, start }
     }
 
     /// Steps of Newton's method for X₀.
     const STEPS: usize = match N {
-        FEW => 2,
-        SOME => 5,
-        LARGE => 12,
+        FEW => 2 + S::ORDER,
+        SOME => 5 + S::ORDER,
+        LARGE => 12 + S::ORDER,
         _ => 60,
     };
 

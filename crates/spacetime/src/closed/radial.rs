@@ -62,6 +62,7 @@ pub struct Sweep<'a, S, const PLAIN: bool, const TIMED: bool> {
     /// Parameter (σ, or u for plain motion) at the start and at the middle.
     from: S,
     middle: S,
+    to: S,
     first: Integrals<S>,
     whole: Integrals<S>,
     /// Twist and delay at the start, and twice those at the turning point.
@@ -96,6 +97,7 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             factors,
             from,
             middle: from,
+            to: from,
             first: Integrals::zero(zero),
             whole: Integrals::zero(zero),
             twist: [horizons.twist(from), if PLAIN { zero } else { horizons.twist(turn) * 2.0 }],
@@ -108,13 +110,14 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
         let to;
         if PLAIN {
             to = course.end;
-            sweep.middle = (photon.u + to) * 0.5;
+            sweep.middle = ((photon.u + to) * 0.5).still();
         } else {
             sweep.from = sweep.parameter_at(photon.u, photon.u_rate);
             let rate = potential.at(course.end).max(zero).sqrt() * course.side;
             to = sweep.parameter_at(course.end, rate);
-            sweep.middle = sweep.from.max(zero).min(to);
+            sweep.middle = sweep.from.max(zero).min(to).still();
         }
+        sweep.to = to;
         sweep.first = sweep.stretch(sweep.from, sweep.middle);
         sweep.whole = sweep.first.plus(sweep.stretch(sweep.middle, to));
         sweep
@@ -170,9 +173,11 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
     fn point(&self, tau: S) -> Point<S> {
         let Course { inwards, shape, lead, .. } = self.start.course;
         let zero = tau.constant(0.0);
+        // What the last step corrects needs no derivatives.
+        let photon_u = self.start.photon.u.still();
         let guess = tau.outline(
             #[inline(always)]
-            || weierstrass::inverse_radius(&self.potential, self.start.photon.u, inwards, tau),
+            || weierstrass::inverse_radius(&self.potential.still(), photon_u, inwards, tau.still()),
         );
         let late = self.first.tau.less(tau);
         let from = S::select(late, self.middle, self.from);
@@ -193,7 +198,20 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             let cosh = S::select(arc.less(arc.constant(NEAR_TURN)), uniform, before);
             S::select(shape.less(zero), cosh, arc)
         };
+        let mut sigma = sigma.still();
         let mut found = begun.plus(self.stretch(from, sigma));
+        if S::LANES == 1 && !PLAIN {
+            // Next to the critical curve, where rays of lanes are not, the guess has no digits left.
+            for _ in 0..60 {
+                let step = (tau - found.tau) * self.factors.quotient_at(self.place(sigma).0).sqrt();
+                if S::any(step.abs().less(zero.constant(1e-3))) {
+                    break;
+                }
+                let bounded = step.max(zero.constant(-1.0)).min(zero.constant(1.0));
+                sigma = (sigma + bounded).max(self.from).min(self.to).still();
+                found = begun.plus(self.stretch(from, sigma));
+            }
+        }
         // One step of second order with the quadrature's own τ, so that the place is that of the integrals.
         let rest = tau - found.tau;
         let (u, between, root);
@@ -210,7 +228,8 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
             let (there, other) = self.place(rest.mul_add(rest.mul_add(bend, speed), sigma));
             u = there;
             between = (here + u) * 0.5;
-            // √U = |du/dσ| √q.
+            // √U = |du/dσ| √q; derivatives have one order less than values.
+            let speed = if S::ORDER > 0 { self.factors.quotient_at(between).sqrt() } else { speed };
             root = (slope.abs() + other.abs()) * 0.5 * speed;
         }
         let [width, one] = [self.width(between, root), root + 1.0];

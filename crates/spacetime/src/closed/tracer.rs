@@ -8,6 +8,7 @@ use super::distant::Distant;
 use super::horizons::Horizons;
 use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::Photon;
+use super::planar;
 use super::polar::{FEW, FEW_REACH, LARGE, LARGE_REACH, MANY, SOME, SOME_REACH, frequency, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::Sweep;
@@ -23,7 +24,7 @@ use crate::tensor::dot;
 pub const NODES: usize = 24;
 
 /// Nodes for the motions that are not factored.
-const PLAIN_NODES: usize = 32;
+pub(super) const PLAIN_NODES: usize = 32;
 
 /// η below which light moves in the plane, or along a radius.
 pub(super) const PLANAR: f64 = 1e-28;
@@ -114,10 +115,9 @@ impl ClosedForm {
             }
             let tau = radial.total();
             let [theta, turned] = if photon.eta < -PLANAR {
-                Vortex::new(photon).at(tau, &shared.plain)
+                Vortex::new(photon, start.heading).at(tau, &shared.plain)
             } else {
-                let sin2 = (1.0 - photon.mu * photon.mu).max(f64::MIN_POSITIVE);
-                [photon.mu.acos(), photon.lambda * tau / sin2]
+                planar::after(photon, start.heading, tau)
             };
             [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
         } else {
@@ -151,12 +151,17 @@ impl Tracer for ClosedForm {
         path.clear();
         let metric = self.shared.metric;
         let photon = Photon::new(metric.spin(), ray.energy, &ray.start);
+        // What is not a number goes nowhere.
+        if !(photon.eta + photon.u_rate + photon.mu_rate + photon.lambda).is_finite() {
+            return;
+        }
         let class = Class::of(&photon, self.shared.rim);
         let offset = if photon.u > 0.0 { metric.azimuth_offset(1.0 / photon.u) } else { 0.0 };
         let start = Start {
             photon,
             course: class.course,
             azimuth: ray.azimuth - offset,
+            heading: heading(&photon, ray),
             horizons: Horizons::new(metric.spin()),
         };
         let (escapes, count) = (class.escapes > 0.0, query.max_crossings);
@@ -205,7 +210,8 @@ pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 
     }
     let photon = Photon::new(metric.spin(), energy, start);
     let class = Class::of(&photon, 1.0 / metric.horizon());
-    let start = Start { photon, course: class.course, azimuth: 0.0, horizons: Horizons::new(metric.spin()) };
+    let (course, horizons) = (class.course, Horizons::new(metric.spin()));
+    let start = Start { photon, course, azimuth: 0.0, heading: [photon.lambda, photon.mu_rate], horizons };
     let nodes = Nodes::new(PLAIN_NODES);
     let tau = match class.kind(true) {
         Kind::Plain => Sweep::<_, true, false>::new::<false>(&start, &nodes).total(),
@@ -215,4 +221,11 @@ pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 
     // Light that moves along a radius has no motion in θ.
     let radial = photon.lambda == 0.0 && photon.eta == 0.0;
     if radial { 0.0 } else { frequency(&photon) * tau / (2.0 * PI) }
+}
+
+/// Which way light leaves the camera: on the axis [`Ray::azimuth`] is that in which it leaves, as if it had
+/// just come over the pole.
+fn heading(photon: &Photon<f64>, ray: &Ray) -> [f64; 2] {
+    let [x, y, z] = ray.start.n;
+    if x == 0.0 && y == 0.0 { [0.0, -z] } else { [photon.lambda, photon.mu_rate] }
 }

@@ -3,6 +3,7 @@
 // Each test file compiles this module for itself and uses a part of it.
 #![allow(dead_code)]
 
+pub mod engines;
 pub mod mino;
 pub mod orbit;
 
