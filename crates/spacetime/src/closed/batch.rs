@@ -5,23 +5,22 @@
 
 use fearless_simd::Simd;
 
-use super::course::{Class, Course, Kind};
+use super::course::Kind;
 use super::distant::{self, Distant};
-use super::horizons::Horizons;
 use super::kernel::{self, Meeting, Radial, Start};
-use super::photon::Photon;
-use super::polar::{FEW, FEW_REACH, LARGE, LARGE_REACH, SOME, SOME_REACH, size_of_nome};
+use super::polar::{FEW, LARGE, SOME};
 use super::quadrature::Nodes;
 use super::radial::Sweep;
+use super::ready::{NUMBERS, Prepared, Ready};
 use super::series::Cosines;
-use super::tracer::{PLANAR, TYPICAL_ERROR};
+use super::tracer::TYPICAL_ERROR;
 use crate::geodesic::{Crossing, Fate, Path, Query, Ray, Side};
 use crate::lanes::{Lanes, OnLanes};
-use crate::metric::{Inverted, Kerr};
+use crate::metric::Kerr;
 use crate::scalar::Scalar;
 
 /// Rays followed at once.
-const WIDTH: usize = 8;
+pub const WIDTH: usize = 8;
 
 /// Rays sorted at once: enough that few lanes stay empty, few enough to stay in the cache.
 const MOST: usize = 1024;
@@ -45,23 +44,14 @@ pub struct Shared {
     pub large: Box<Cosines<LARGE>>,
     /// Cosines of the series of distant motion.
     pub distant: Cosines<{ distant::TERMS }>,
+    /// The same for remote motion.
+    pub remote: Cosines<{ distant::REMOTE_TERMS }>,
 }
 
 /// Whether a ray can be traced in closed form.
 pub fn suits(ray: &Ray) -> bool {
     ray.side == Side::Reversed && ray.energy > 0.0
 }
-
-/// A ray ready to be followed among others of its kind.
-#[derive(Clone, Copy)]
-struct Ready {
-    /// Its number.
-    ray: u32,
-    /// λ, η, u, u′, μ, μ′; inwards, side, shape, lead, end; azimuth.
-    numbers: [f64; NUMBERS],
-}
-
-const NUMBERS: usize = 12;
 
 /// Rays that are followed alike.
 struct Group {
@@ -143,16 +133,16 @@ impl Groups {
             let count = WIDTH.min(rays.len() - first);
             let prepared = simd.vectorize(
                 #[inline(always)]
-                || prepare(simd, shared, &rays[first..first + count]),
+                || Prepared::new(simd, shared, &rays[first..first + count]),
             );
             for lane in 0..count {
                 let is = |flags: &[f64; WIDTH]| flags[lane] > 0.0;
+                let flags = [&prepared.plain, &prepared.spread, &prepared.distant].map(|flags| flags[lane]);
                 if is(&prepared.careful) || !suits(&rays[first + lane]) {
                     rest(first + lane);
                     continue;
                 }
-                let kind =
-                    Kind::of([&prepared.plain, &prepared.spread, &prepared.distant].map(is), query.elapsed);
+                let kind = Kind::of(flags, query.elapsed);
                 let width = prepared.width[lane] as usize;
                 if width > 0 && kind != Kind::Plain {
                     rest(first + lane);
@@ -205,91 +195,10 @@ impl Groups {
                     work.sweep::<L, false, false, true, FEW>(simd, &shared.few, paths);
                 }
                 (Kind::Spread, true, _) => work.sweep::<L, false, true, true, FEW>(simd, &shared.few, paths),
-                (Kind::Distant, ..) => work.distant::<L>(simd, paths),
+                (Kind::Distant, ..) => work.distant(simd, &shared.distant, paths),
+                (Kind::Remote, ..) => work.distant(simd, &shared.remote, paths),
             }
         }
-    }
-}
-
-/// Eight rays, classified; yes is 1, no is 0.
-struct Prepared {
-    numbers: [[f64; WIDTH]; NUMBERS],
-    plain: [f64; WIDTH],
-    spread: [f64; WIDTH],
-    distant: [f64; WIDTH],
-    escapes: [f64; WIDTH],
-    sensitivity: [f64; WIDTH],
-    /// Captured without meeting the plane.
-    planar: [f64; WIDTH],
-    /// The [`Group::width`] of their motion in θ.
-    width: [f64; WIDTH],
-    /// Not for lanes.
-    careful: [f64; WIDTH],
-}
-
-/// Classifies up to eight rays; what is missing repeats the last.
-#[inline(always)]
-fn prepare<L: Simd>(simd: L, shared: &Shared, rays: &[Ray]) -> Prepared {
-    let mut columns = [[0.0; WIDTH]; 10];
-    for lane in 0..WIDTH {
-        let Ray { start: Inverted { w, n, q, j }, energy, azimuth, .. } = rays[lane.min(rays.len() - 1)];
-        let row = [w, n[0], n[1], n[2], q, j[0], j[1], j[2], energy, azimuth];
-        for (column, value) in columns.iter_mut().zip(row) {
-            column[lane] = value;
-        }
-    }
-    let [w, nx, ny, nz, q, jx, jy, jz, energy, shown] = columns;
-    let state = Inverted {
-        w: Lanes::new(simd, w),
-        n: [Lanes::new(simd, nx), Lanes::new(simd, ny), Lanes::new(simd, nz)],
-        q: Lanes::new(simd, q),
-        j: [Lanes::new(simd, jx), Lanes::new(simd, jy), Lanes::new(simd, jz)],
-    };
-    let energy = Lanes::new(simd, energy);
-    let spin = energy.constant(shared.metric.spin());
-    let photon = Photon::new(spin, energy, &state);
-    let class = Class::of(&photon, energy.constant(shared.rim));
-    let (zero, one) = (energy.constant(0.0), energy.constant(1.0));
-    // Everything must hold; NaN holds nothing.
-    let mut fine = Lanes::select(zero.less(energy), one, zero);
-    let above = Lanes::select(zero.constant(PLANAR).less(photon.eta), one, zero);
-    let below = Lanes::select(photon.eta.less(zero.constant(-PLANAR)), one, zero);
-    let planar = below * (one - class.escapes);
-    fine *= above.max(planar);
-    let nome = size_of_nome(&photon);
-    let beyond = |reach: f64| Lanes::select(nome.less(zero.constant(reach)), zero, one - planar);
-    fine *= one - beyond(LARGE_REACH);
-    let width = beyond(FEW_REACH) + beyond(SOME_REACH);
-    // The axis, and rays that graze the critical curve by less than any digit.
-    fine *= Lanes::select((photon.mu * photon.mu).less(one), one, zero);
-    fine *= Lanes::select(class.sensitivity.less(zero.constant(1e12)), one, zero);
-    let Course { inwards, side, shape, lead, end } = class.course;
-    let Photon { lambda, eta, u, u_rate, mu, mu_rate, .. } = photon;
-    // From the Kerr–Schild azimuth of n to that of Boyer and Lindquist, atan2(s, r) + tw before.
-    let azimuth = Lanes::new(simd, shown) - (spin * u).atan2(one) - Horizons::new(spin).twist(u);
-    Prepared {
-        numbers: [
-            lambda.to_array(),
-            eta.to_array(),
-            u.to_array(),
-            u_rate.to_array(),
-            mu.to_array(),
-            mu_rate.to_array(),
-            inwards.to_array(),
-            side.to_array(),
-            shape.to_array(),
-            lead.to_array(),
-            end.to_array(),
-            azimuth.to_array(),
-        ],
-        plain: class.plain.to_array(),
-        spread: class.spread.to_array(),
-        distant: class.distant.to_array(),
-        escapes: class.escapes.to_array(),
-        sensitivity: class.sensitivity.to_array(),
-        planar: planar.to_array(),
-        width: width.to_array(),
-        careful: (one - fine).to_array(),
     }
 }
 
@@ -302,13 +211,13 @@ struct Work<'a> {
 
 impl Work<'_> {
     #[inline(always)]
-    fn distant<L: Simd>(&self, simd: L, paths: &mut [Path]) {
+    fn distant<L: Simd, const N: usize>(&self, simd: L, cosines: &Cosines<N>, paths: &mut [Path]) {
         for some in self.group.ready.chunks(WIDTH) {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    let start = self.start(simd, some);
-                    let radial = Distant::new(&start, &self.shared.distant);
+                    let start = Ready::start(simd, some, self.shared.metric.spin());
+                    let radial = Distant::new(&start, cosines);
                     self.follow::<L, _, FEW, false>(some, &start, &radial, &self.shared.few, paths);
                 },
             );
@@ -327,46 +236,11 @@ impl Work<'_> {
             simd.vectorize(
                 #[inline(always)]
                 || {
-                    let start = self.start(simd, some);
+                    let start = Ready::start(simd, some, self.shared.metric.spin());
                     let radial = Sweep::<_, PLAIN, TIMED>::new::<SPREAD>(&start, nodes);
                     self.follow::<L, _, N, TIMED>(some, &start, &radial, cosines, paths);
                 },
             );
-        }
-    }
-
-    /// Up to eight rays; what is missing repeats the last.
-    #[inline(always)]
-    fn start<L: Simd>(&self, simd: L, some: &[Ready]) -> Start<Lanes<L>> {
-        let mut columns = [[0.0; WIDTH]; NUMBERS];
-        for lane in 0..WIDTH {
-            for (column, value) in columns.iter_mut().zip(some[lane.min(some.len() - 1)].numbers) {
-                column[lane] = value;
-            }
-        }
-        let [lambda, eta, u, u_rate, mu, mu_rate, inwards, side, shape, lead, end, azimuth] = columns;
-        let lambda = Lanes::new(simd, lambda);
-        let spin = lambda.constant(self.shared.metric.spin());
-        Start {
-            photon: Photon {
-                spin,
-                lambda,
-                eta: Lanes::new(simd, eta),
-                u: Lanes::new(simd, u),
-                u_rate: Lanes::new(simd, u_rate),
-                mu: Lanes::new(simd, mu),
-                mu_rate: Lanes::new(simd, mu_rate),
-            },
-            course: Course {
-                inwards: Lanes::new(simd, inwards),
-                side: Lanes::new(simd, side),
-                shape: Lanes::new(simd, shape),
-                lead: Lanes::new(simd, lead),
-                end: Lanes::new(simd, end),
-            },
-            azimuth: Lanes::new(simd, azimuth),
-            heading: [lambda, Lanes::new(simd, mu_rate)],
-            horizons: Horizons::new(spin),
         }
     }
 

@@ -29,19 +29,21 @@ pub enum Kind {
     Spread,
     /// Light that escapes far from the critical curve: a Fourier series.
     Distant,
+    /// Light that escapes farther out still: a shorter one.
+    Remote,
 }
 
 impl Kind {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Plain, Self::Factored, Self::Spread, Self::Distant];
+    pub const ALL: [Self; 5] = [Self::Plain, Self::Factored, Self::Spread, Self::Distant, Self::Remote];
 
-    /// How a motion with these properties is computed; with elapsed time nothing is [`Kind::Distant`].
-    pub fn of([plain, spread, distant]: [bool; 3], timed: bool) -> Self {
-        if plain {
+    /// How a motion with these properties of its [`Class`] is computed; with elapsed time no series is.
+    pub fn of([plain, spread, distant]: [f64; 3], timed: bool) -> Self {
+        if plain > 0.0 {
             Self::Plain
-        } else if distant && !timed {
-            Self::Distant
-        } else if spread {
+        } else if distant > 0.0 && !timed {
+            if distant > 1.0 { Self::Remote } else { Self::Distant }
+        } else if spread > 0.0 {
             Self::Spread
         } else {
             Self::Factored
@@ -56,9 +58,9 @@ pub struct Class<S> {
     pub course: Course<S>,
     /// Whether it is [`Kind::Plain`].
     pub plain: S,
-    /// Whether it is, if not plain, [`Kind::Spread`] or [`Kind::Distant`].
+    /// Whether it is [`Kind::Spread`], if nothing else.
     pub spread: S,
-    /// Whether it is [`Kind::Distant`].
+    /// 1 if it is [`Kind::Distant`], 2 if it is [`Kind::Remote`].
     pub distant: S,
     /// Whether it ends at infinity.
     pub escapes: S,
@@ -84,6 +86,9 @@ const SPREAD: f64 = -0.5;
 /// Below this least value of U light that escapes is [`Kind::Distant`]: U = 1 − b²/27 without spin, so that it
 /// passes at b = 8 M.
 const DISTANT: f64 = -1.4;
+
+/// Below this one it is [`Kind::Remote`]: b = 11.6 M.
+const REMOTE: f64 = -4.0;
 
 impl<S: Scalar> Class<S> {
     /// Classifies a photon outside a horizon at 1/r = `rim`.
@@ -118,7 +123,7 @@ impl<S: Scalar> Class<S> {
             course,
             plain: (one - valley).max(deep),
             spread: below(value, SPREAD),
-            distant: below(value, DISTANT) * escapes * (one - monotone),
+            distant: (below(value, DISTANT) + below(value, REMOTE)) * escapes * (one - monotone),
             escapes,
             sensitivity,
         }
@@ -128,6 +133,6 @@ impl<S: Scalar> Class<S> {
 impl Class<f64> {
     /// How the motion is computed.
     pub fn kind(&self, timed: bool) -> Kind {
-        Kind::of([self.plain, self.spread, self.distant].map(|flag| flag > 0.0), timed)
+        Kind::of([self.plain, self.spread, self.distant], timed)
     }
 }

@@ -14,40 +14,43 @@ use super::photon::{Photon, Potential};
 use super::series::{Cosines, Integral, sines};
 use crate::scalar::Scalar;
 
-/// Terms of the Fourier series.
+/// Terms of the Fourier series that are enough for [`Kind::Distant`](super::course::Kind).
 pub const TERMS: usize = 16;
+
+/// Terms that are enough for [`Kind::Remote`](super::course::Kind).
+pub const REMOTE_TERMS: usize = 12;
 
 /// Terms that a first approximation of χ takes.
 const ROUGH: usize = 8;
 
 /// The motion of a photon from its start to infinity.
-pub struct Distant<'a, S> {
+pub struct Distant<'a, S, const N: usize> {
     start: &'a Start<S>,
     factors: Factors<S>,
-    mino: Integral<S, TERMS>,
-    azimuth: Integral<S, TERMS>,
+    mino: Integral<S, N>,
+    azimuth: Integral<S, N>,
     /// Both integrals at the start.
     begun: [S; 2],
     total: S,
     swept: S,
 }
 
-impl<'a, S: Scalar> Distant<'a, S> {
+impl<'a, S: Scalar, const N: usize> Distant<'a, S, N> {
     /// The motion from a start.
     #[inline(always)]
-    pub fn new(start: &'a Start<S>, cosines: &Cosines<TERMS>) -> Self {
+    pub fn new(start: &'a Start<S>, cosines: &Cosines<N>) -> Self {
         let Photon { spin, lambda, u, u_rate, .. } = start.photon;
         let zero = u.constant(0.0);
         let factors = Factors::around_flight(&Potential::new(&start.photon));
-        let (mut slow, mut turn) = ([zero; TERMS], [zero; TERMS]);
+        let (mut slow, mut turn) = ([zero; N], [zero; N]);
         let mut last = [zero; 2];
-        for j in 0..=TERMS {
+        for j in 0..=N {
             let here = factors.width.mul_add(zero.constant(cosines.of(j)), factors.middle);
             let root = (-factors.quotient_at(here)).sqrt();
             let delta = here.mul_add(spin * spin * here - 2.0, zero.constant(1.0));
             let inverse = (root * delta).recip();
             let pair = [inverse * delta, numerator(spin, lambda, here) * inverse];
-            if j < TERMS { [slow[j], turn[j]] = pair } else { last = pair }
+            if j < N { [slow[j], turn[j]] = pair } else { last = pair }
         }
         let mino = Integral::through(&slow, last[0], cosines);
         let azimuth = Integral::through(&turn, last[1], cosines);
@@ -76,7 +79,7 @@ fn numerator<S: Scalar>(spin: S, lambda: S, u: S) -> S {
     spin * u * (-(spin * lambda * u) + 2.0)
 }
 
-impl<S: Scalar> Radial<S> for Distant<'_, S> {
+impl<S: Scalar, const N: usize> Radial<S> for Distant<'_, S, N> {
     fn total(&self) -> S {
         self.total
     }

@@ -24,6 +24,7 @@ mod planar;
 mod polar;
 mod quadrature;
 mod radial;
+mod ready;
 mod series;
 mod tracer;
 mod vortical;

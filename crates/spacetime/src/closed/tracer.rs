@@ -74,6 +74,7 @@ impl ClosedForm {
             some: Cosines::new(),
             large: Box::new(Cosines::new()),
             distant: Cosines::new(),
+            remote: Cosines::new(),
         };
         let fallback = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, max_steps);
         Self { level: Level::best(), shared, many: Box::new(Cosines::new()), fallback }
@@ -165,7 +166,7 @@ impl Tracer for ClosedForm {
             horizons: Horizons::new(metric.spin()),
         };
         let (escapes, count) = (class.escapes > 0.0, query.max_crossings);
-        let Shared { nodes, plain, distant, .. } = &self.shared;
+        let Shared { nodes, plain, distant, remote, .. } = &self.shared;
         macro_rules! follow {
             ($timed:literal, $radial:expr) => {
                 self.follow::<_, $timed>(&start, &$radial, escapes, count, path)
@@ -179,6 +180,7 @@ impl Tracer for ClosedForm {
             (Kind::Spread, false) => follow!(false, Sweep::<_, false, false>::new::<true>(&start, nodes)),
             (Kind::Spread, true) => follow!(true, Sweep::<_, false, true>::new::<true>(&start, nodes)),
             (Kind::Distant, _) => follow!(false, Distant::new(&start, distant)),
+            (Kind::Remote, _) => follow!(false, Distant::new(&start, remote)),
         }
         if query.windings {
             path.windings = windings(metric, ray.energy, &ray.start);
@@ -216,7 +218,9 @@ pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 
     let tau = match class.kind(true) {
         Kind::Plain => Sweep::<_, true, false>::new::<false>(&start, &nodes).total(),
         Kind::Factored => Sweep::<_, false, false>::new::<false>(&start, &nodes).total(),
-        Kind::Spread | Kind::Distant => Sweep::<_, false, false>::new::<true>(&start, &nodes).total(),
+        Kind::Spread | Kind::Distant | Kind::Remote => {
+            Sweep::<_, false, false>::new::<true>(&start, &nodes).total()
+        }
     };
     // Light that moves along a radius has no motion in θ.
     let radial = photon.lambda == 0.0 && photon.eta == 0.0;
