@@ -53,7 +53,87 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
     /// The whole state at θ.
     #[inline(always)]
     pub fn at(&self, theta: S) -> [S; D] {
-        std::array::from_fn(|i| self.component(i, theta))
+        let mut y = self.start;
+        for i in 0..D {
+            y[i] = self.component(i, theta);
+        }
+        y
+    }
+
+    /// The sum of some components from number `first` on, each times its weight.
+    #[inline(always)]
+    pub(super) fn weighted<const N: usize>(&self, first: usize, weights: &[f64; N]) -> Dense<S, 1> {
+        let sum = |y: &[S; D]| {
+            let mut sum = y[first] * weights[0];
+            for i in 1..N {
+                sum = y[first + i].mul_add(sum.constant(weights[i]), sum);
+            }
+            [sum]
+        };
+        let mut terms = [sum(&self.start); 7];
+        for n in 0..self.used {
+            terms[n] = sum(&self.terms[n]);
+        }
+        Dense { start: sum(&self.start), terms, used: self.used }
+    }
+
+    /// That of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Dense<f64, D> {
+        let of = |y: &[S; D]| y.map(|c| c.lane(lane));
+        Dense { start: of(&self.start), terms: self.terms.each_ref().map(of), used: self.used }
+    }
+}
+
+impl<S: Scalar> Dense<S, 1> {
+    /// The value at θ and dy/dθ.
+    #[inline(always)]
+    fn tangent(&self, theta: S) -> [S; 2] {
+        let other = -theta + 1.0;
+        let mut sum = theta.constant(0.0);
+        let mut slope = sum;
+        for n in (0..self.used).rev() {
+            let inner = sum + self.terms[n][0];
+            if n % 2 == 0 {
+                slope = slope.mul_add(theta, inner);
+                sum = inner * theta;
+            } else {
+                slope = slope.mul_add(other, -inner);
+                sum = inner * other;
+            }
+        }
+        [self.start[0] + sum, slope]
+    }
+
+    /// The θ in [0, 1] at which the polynomial changes sign, lane by lane, to the last bits of θ: Newton's method
+    /// within a bracket, which is halved where a step would leave it. Where the signs at the ends are alike or one
+    /// is zero, the result means nothing. A lane that has converged stays as it is whatever the others need.
+    #[inline(always)]
+    pub(super) fn zero(&self) -> S {
+        let start = self.start[0];
+        let (zero, one) = (start.constant(0.0), start.constant(1.0));
+        let end = self.component(0, one);
+        // Signs are turned so that the polynomial falls through zero.
+        let sign = S::select(start.less(zero), -one, one);
+        let (mut low, mut high) = (zero, one);
+        let mut theta = start / (start - end);
+        let mut busy = one;
+        for _ in 0..60 {
+            let [value, slope] = self.tangent(theta);
+            let before = zero.less(value * sign);
+            low = S::select(before, theta, low);
+            high = S::select(before, high, theta);
+            let newton = theta - value / slope;
+            let outside = S::select(newton.less(low), one, S::select(high.less(newton), one, zero));
+            let next = S::select(zero.less(outside), (low + high) * 0.5, newton);
+            let moved = (next - theta).abs();
+            theta = S::select(zero.less(busy), next, theta);
+            // θ is a share of the step: an absolute tolerance is a relative one of the step.
+            busy = S::select(moved.constant(4e-16).less(moved), busy, zero);
+            if !S::any(zero.less(busy)) {
+                break;
+            }
+        }
+        theta
     }
 }
 

@@ -25,6 +25,8 @@ pub trait Method<const STAGES: usize> {
     const NAME: &'static str;
     /// The power of the step size with which the error estimate falls; zero where there is none.
     const ERROR_ORDER: f64;
+    /// The first stages that dense output does without, the very first aside.
+    const SPARED: usize;
 
     /// A step of size `h` from `y`, where the slope is `k1`.
     fn step<S: Scalar, F: Flow<S, D>, const D: usize>(
@@ -85,6 +87,7 @@ pub struct Rk4;
 impl Method<4> for Rk4 {
     const NAME: &'static str = "rk4";
     const ERROR_ORDER: f64 = 0.0;
+    const SPARED: usize = 3;
 
     #[inline(always)]
     fn step<S: Scalar, F: Flow<S, D>, const D: usize>(
@@ -121,6 +124,7 @@ pub struct Tsit5;
 impl Method<6> for Tsit5 {
     const NAME: &'static str = "tsit5";
     const ERROR_ORDER: f64 = 5.0;
+    const SPARED: usize = 0;
 
     #[inline(always)]
     #[rustfmt::skip]
@@ -170,6 +174,7 @@ pub struct Dop853;
 impl Method<12> for Dop853 {
     const NAME: &'static str = "dop853";
     const ERROR_ORDER: f64 = 8.0;
+    const SPARED: usize = 4;
 
     #[inline(always)]
     #[rustfmt::skip]
