@@ -34,7 +34,9 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
     #[inline(always)]
     pub(super) fn add_bubbles<const N: usize>(&mut self, combinations: [[S; D]; N], h: S) {
         for (n, combination) in combinations.iter().enumerate() {
-            self.terms[3 + n] = combination.map(|c| c * h);
+            for i in 0..D {
+                self.terms[3 + n][i] = combination[i] * h;
+            }
         }
         self.used = 3 + N;
     }
@@ -63,18 +65,12 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
     /// The sum of some components from number `first` on, each times its weight.
     #[inline(always)]
     pub(super) fn weighted<const N: usize>(&self, first: usize, weights: &[f64; N]) -> Dense<S, 1> {
-        let sum = |y: &[S; D]| {
-            let mut sum = y[first] * weights[0];
-            for i in 1..N {
-                sum = y[first + i].mul_add(sum.constant(weights[i]), sum);
-            }
-            [sum]
-        };
-        let mut terms = [sum(&self.start); 7];
+        let start = [weighted_sum(&self.start, first, weights)];
+        let mut terms = [start; 7];
         for n in 0..self.used {
-            terms[n] = sum(&self.terms[n]);
+            terms[n] = [weighted_sum(&self.terms[n], first, weights)];
         }
-        Dense { start: sum(&self.start), terms, used: self.used }
+        Dense { start, terms, used: self.used }
     }
 
     /// That of one lane.
@@ -82,6 +78,19 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
         let of = |y: &[S; D]| y.map(|c| c.lane(lane));
         Dense { start: of(&self.start), terms: self.terms.each_ref().map(of), used: self.used }
     }
+}
+
+#[inline(always)]
+fn weighted_sum<S: Scalar, const D: usize, const N: usize>(
+    y: &[S; D],
+    first: usize,
+    weights: &[f64; N],
+) -> S {
+    let mut sum = y[first] * weights[0];
+    for i in 1..N {
+        sum = y[first + i].mul_add(sum.constant(weights[i]), sum);
+    }
+    sum
 }
 
 impl<S: Scalar> Dense<S, 1> {
@@ -127,8 +136,8 @@ impl<S: Scalar> Dense<S, 1> {
             let next = S::select(zero.less(outside), (low + high) * 0.5, newton);
             let moved = (next - theta).abs();
             theta = S::select(zero.less(busy), next, theta);
-            // θ is a share of the step: an absolute tolerance is a relative one of the step.
-            busy = S::select(moved.constant(4e-16).less(moved), busy, zero);
+            // A step this small leaves the square of it as an error.
+            busy = S::select(moved.constant(1e-10).less(moved), busy, zero);
             if !S::any(zero.less(busy)) {
                 break;
             }

@@ -5,6 +5,7 @@
 use super::dense::Dense;
 use super::flow::Flow;
 use crate::scalar::Scalar;
+use crate::tensor::each;
 
 /// One attempted step.
 #[derive(Clone, Copy, Debug)]
@@ -49,13 +50,16 @@ pub trait Method<const STAGES: usize> {
 /// Σ cᵢ kᵢ.
 #[inline(always)]
 fn combine<S: Scalar, const D: usize, const N: usize>(terms: [(f64, &[S; D]); N]) -> [S; D] {
-    std::array::from_fn(|i| {
-        let mut sum = terms[0].1[i] * terms[0].0;
-        for (c, k) in &terms[1..] {
-            sum = k[i].mul_add(sum.constant(*c), sum);
-        }
-        sum
-    })
+    each(
+        #[inline(always)]
+        |i| {
+            let mut sum = terms[0].1[i] * terms[0].0;
+            for (c, k) in &terms[1..] {
+                sum = k[i].mul_add(sum.constant(*c), sum);
+            }
+            sum
+        },
+    )
 }
 
 /// y + h Σ cᵢ kᵢ.
@@ -66,7 +70,10 @@ fn advance<S: Scalar, const D: usize, const N: usize>(
     terms: [(f64, &[S; D]); N],
 ) -> [S; D] {
     let sum = combine(terms);
-    std::array::from_fn(|i| sum[i].mul_add(h, y[i]))
+    each(
+        #[inline(always)]
+        |i| sum[i].mul_add(h, y[i]),
+    )
 }
 
 /// Mean of the squares of `error` over the flow's scales.

@@ -2,7 +2,7 @@
 
 use super::dense::Dense;
 use crate::scalar::Scalar;
-use crate::tensor::Vec3;
+use crate::tensor::{Vec3, each};
 use std::f64::consts::{PI, TAU};
 
 /// The angle in (−π, π] by which the horizontal part of a turns into that of b; 0 if one of
@@ -29,7 +29,12 @@ pub fn sweep<const D: usize>(
     to: f64,
     sense: f64,
 ) -> f64 {
-    let place = |theta| std::array::from_fn(|i| dense.component(first + i, theta));
+    let place = |theta| {
+        each(
+            #[inline(always)]
+            |i| dense.component(first + i, theta),
+        )
+    };
     refine(&place, (0.0, *start), (to, place(to)), sense, 40)
 }
 

@@ -9,7 +9,7 @@
 use super::{Inverted, Metric, Rate};
 use crate::kerr::horizons;
 use crate::scalar::Scalar;
-use crate::tensor::{Tensor, Vec3, cross, dot};
+use crate::tensor::{Tensor, Vec3, cross, dot, each};
 
 /// A hole of mass 1 and spin s in [−1, 1] about +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +32,23 @@ impl Kerr {
 /// w r around a hole of spin s, which is 1 at infinity.
 #[inline(always)]
 pub(crate) fn scaled_radius<S: Scalar>(spin: S, state: &Inverted<S>) -> S {
-    Field::at(&state.n, state.w * spin).r
+    spheroid(&state.n, state.w * spin)[1].sqrt()
 }
 
 /// The spatial part of l around a hole of spin s.
 #[inline(always)]
 pub(crate) fn principal_null<S: Scalar>(spin: S, state: &Inverted<S>) -> Vec3<S> {
     Field::at(&state.n, state.w * spin).l
+}
+
+/// Σ/2 and r² at x around a hole of spin s.
+#[inline(always)]
+fn spheroid<S: Scalar>(x: &Vec3<S>, spin: S) -> [S; 2] {
+    let [x, y, z] = *x;
+    let (s2, z2) = (spin * spin, z * z);
+    let half = (x.mul_add(x, y.mul_add(y, z2)) - s2) * 0.5;
+    let half_sigma = half.mul_add(half, s2 * z2).sqrt();
+    [half_sigma, half + half_sigma]
 }
 
 /// The quantities of the metric at a point.
@@ -58,18 +68,19 @@ struct Field<S> {
 impl<S: Scalar> Field<S> {
     #[inline(always)]
     fn at(x: &Vec3<S>, spin: S) -> Self {
+        let [half_sigma, r2] = spheroid(x, spin);
         let [x, y, z] = *x;
-        let (s2, z2) = (spin * spin, z * z);
-        let half = (x.mul_add(x, y.mul_add(y, z2)) - s2) * 0.5;
-        let half_sigma = half.mul_add(half, s2 * z2).sqrt();
-        let r2 = half + half_sigma;
         let r = r2.sqrt();
-        let inverse_r = r.recip();
-        let weight = (r2 + s2).recip();
+        let wide = spin.mul_add(spin, r2);
+        // One division for three: they cost more than all else here.
+        let both = half_sigma * r;
+        let inverse = (both * wide).recip();
+        let weight = inverse * both;
+        let inverse_r = inverse * (half_sigma * wide);
         Self {
             r,
             inverse_r,
-            inverse_sigma: half_sigma.recip() * 0.5,
+            inverse_sigma: inverse * (r * wide) * 0.5,
             weight,
             l: [r.mul_add(x, spin * y) * weight, r.mul_add(y, -(spin * x)) * weight, z * inverse_r],
         }
@@ -109,7 +120,7 @@ impl Metric for Kerr {
 
     #[inline(always)]
     fn radius<S: Scalar>(&self, x: &Vec3<S>) -> S {
-        Field::at(x, x[0].constant(self.spin)).r
+        spheroid(x, x[0].constant(self.spin))[1].sqrt()
     }
 
     fn horizon(&self) -> f64 {
@@ -131,7 +142,10 @@ impl Metric for Kerr {
         // The explicit z in Σ: −fℓ² s² z/(r² Σ).
         let oblate = drift * l * (s * field.inverse_r).squared() * field.inverse_sigma;
         Rate {
-            velocity: std::array::from_fn(|i| p[i] - drift * field.l[i]),
+            velocity: each(
+                #[inline(always)]
+                |i| p[i] - drift * field.l[i],
+            ),
             force: [
                 flat * x[0] + turn * (field.r * p[0] - s * p[1]),
                 flat * x[1] + turn * (field.r * p[1] + s * p[0]),
@@ -156,13 +170,19 @@ impl Metric for Kerr {
         let s = w * self.spin;
         let field = Field::at(&n, s);
         let k = cross(&j, &n);
-        let p: Vec3<S> = std::array::from_fn(|i| q.mul_add(n[i], w * k[i]));
+        let p: Vec3<S> = each(
+            #[inline(always)]
+            |i| q.mul_add(n[i], w * k[i]),
+        );
         let Pull { l, along_r } = field.pull(&n, &p, energy, s);
         let f = field.r * field.inverse_sigma * 2.0;
         let drift = f * l;
         let radial = f * along_r;
         let lengthening = drift * dot(&n, &field.l) * (-(dot(&n, &n) * 2.0) + 3.0);
-        let turn: Vec3<S> = std::array::from_fn(|i| k[i] - drift * field.l[i] + n[i] * lengthening);
+        let turn: Vec3<S> = each(
+            #[inline(always)]
+            |i| k[i] - drift * field.l[i] + n[i] * lengthening,
+        );
         let height = s * n[2] * field.inverse_r;
         let flattening = height.squared();
         let oblate = drift * l * field.inverse_sigma;
@@ -174,12 +194,15 @@ impl Metric for Kerr {
         let tilt = s * self.spin;
         let mixed = tilt * whirl * field.inverse_r;
         let bulge = tilt * n[2] * field.inverse_r * (radial * field.inverse_sigma - oblate * field.inverse_r);
-        let torque = |i: usize| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i];
+        let torque: [S; 2] = each(
+            #[inline(always)]
+            |i| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i],
+        );
         Inverted {
             w: w * lengthening - q,
             n: turn,
             q: w * dot(&turn, &k) + pull,
-            j: [torque(1) - precession * j[1], precession * j[0] - torque(0), w.constant(0.0)],
+            j: [torque[1] - precession * j[1], precession * j[0] - torque[0], w.constant(0.0)],
         }
     }
 
@@ -238,7 +261,15 @@ impl Metric for Kerr {
         let tilt = (w * s * field.inverse_r).powi(2) * n[2];
         let slope = [n[0], n[1], n[2] + tilt].map(|c| c * field.r * field.inverse_sigma * kick);
         let torque = cross(&n, &slope);
-        Inverted { w, n, q: q + dot(&n, &slope), j: std::array::from_fn(|i| j[i] + torque[i] / w) }
+        Inverted {
+            w,
+            n,
+            q: q + dot(&n, &slope),
+            j: each(
+                #[inline(always)]
+                |i| j[i] + torque[i] / w,
+            ),
+        }
     }
 
     /// 1/U at the least value of the radial potential U(u) = 1 + Bu² + 2Cu³ − Qu⁴ outside the
@@ -279,7 +310,7 @@ impl Metric for Kerr {
 
     #[inline(always)]
     fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
-        w * Field::at(n, w * self.spin).inverse_r
+        w / spheroid(n, w * self.spin)[1].sqrt()
     }
 }
 
@@ -289,16 +320,22 @@ fn kerr_schild<S: Scalar>(spin: f64, x: &Vec3<S>, sign: f64) -> Tensor<S> {
     let field = Field::at(x, x[0].constant(spin));
     let f = field.r * field.inverse_sigma * (2.0 * sign);
     let l = [f.constant(sign), field.l[0], field.l[1], field.l[2]];
-    std::array::from_fn(|m| {
-        std::array::from_fn(|n| {
-            let flat = if m != n {
-                0.0
-            } else if m == 0 {
-                -1.0
-            } else {
-                1.0
-            };
-            f * l[m] * l[n] + flat
-        })
-    })
+    each(
+        #[inline(always)]
+        |m| {
+            each(
+                #[inline(always)]
+                |n| {
+                    let flat = if m != n {
+                        0.0
+                    } else if m == 0 {
+                        -1.0
+                    } else {
+                        1.0
+                    };
+                    f * l[m] * l[n] + flat
+                },
+            )
+        },
+    )
 }

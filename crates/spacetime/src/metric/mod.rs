@@ -14,7 +14,7 @@ pub use schwarzschild::Schwarzschild;
 
 use crate::dual::Dual;
 use crate::scalar::Scalar;
-use crate::tensor::{Tensor, Vec3, contract, cross, dot, inverse, pair, product};
+use crate::tensor::{Tensor, Vec3, contract, cross, dot, each, inverse, pair, product};
 
 /// A stationary, asymptotically flat spacetime.
 ///
@@ -106,7 +106,11 @@ pub trait Metric: Copy + Send + Sync {
     /// rays are to reach infinity in overrides it.
     #[inline(always)]
     fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
-        self.radius(&n.map(|c| c / w)).recip()
+        self.radius(&each(
+            #[inline(always)]
+            |i| n[i] / w,
+        ))
+        .recip()
     }
 }
 
@@ -161,10 +165,13 @@ pub fn rate_from_components<M: Metric, S: Scalar>(
     let lowered = metric.components(&Dual::variables(*x));
     let g: Tensor<S> = lowered.map(|row| row.map(|c| c.value));
     let rate = contract(&inverse(&g), &[-energy, p[0], p[1], p[2]]);
-    let force = std::array::from_fn(|i| {
-        let slope: Tensor<S> = lowered.map(|row| row.map(|c| c.gradient[i]));
-        pair(&contract(&slope, &rate), &rate) * 0.5
-    });
+    let force = each(
+        #[inline(always)]
+        |i| {
+            let slope: Tensor<S> = lowered.map(|row| row.map(|c| c.gradient[i]));
+            pair(&contract(&slope, &rate), &rate) * 0.5
+        },
+    );
     Rate { velocity: [rate[1], rate[2], rate[3]], force }
 }
 
@@ -178,16 +185,28 @@ pub fn inverted_from_rate<M: Metric, S: Scalar>(metric: &M, energy: S, state: &I
     let Inverted { w, n, .. } = *state;
     let p = state.momentum();
     let inverse_w = w.recip();
-    let x = n.map(|c| c * inverse_w);
+    let x: Vec3<S> = each(
+        #[inline(always)]
+        |i| n[i] * inverse_w,
+    );
     let Rate { velocity, force } = metric.rate(energy, &x, &p);
     let along = dot(&n, &velocity);
-    let turn: Vec3<S> = std::array::from_fn(|i| (velocity[i] - n[i] * along) * inverse_w);
-    let push = force.map(|f| f * inverse_w * inverse_w);
+    let turn: Vec3<S> = each(
+        #[inline(always)]
+        |i| (velocity[i] - n[i] * along) * inverse_w,
+    );
+    let push: Vec3<S> = each(
+        #[inline(always)]
+        |i| force[i] * inverse_w * inverse_w,
+    );
     let (swept, torque) = (cross(&velocity, &p), cross(&x, &push));
     Inverted {
         w: -along,
         n: turn,
         q: dot(&turn, &p) + dot(&n, &push),
-        j: std::array::from_fn(|i| (swept[i] * inverse_w).mul_add(inverse_w, torque[i])),
+        j: each(
+            #[inline(always)]
+            |i| (swept[i] * inverse_w).mul_add(inverse_w, torque[i]),
+        ),
     }
 }

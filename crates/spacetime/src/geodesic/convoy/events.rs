@@ -12,6 +12,7 @@ use crate::geodesic::method::{Method, Step};
 use crate::geodesic::walk::{End, Stop, meetings};
 use crate::geodesic::winding;
 use crate::metric::Metric;
+use crate::scalar::Scalar;
 use crate::tensor::{Vec3, dot};
 use fearless_simd::Simd;
 
@@ -198,21 +199,13 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         to: S,
         wanted: u64,
     ) -> [f64; W] {
-        let place = |theta: S| {
-            [
-                dense.component(first, theta),
-                dense.component(first + 1, theta),
-                dense.component(first + 2, theta),
-            ]
-        };
-        let (middle, last) = (place(to * 0.5), place(to));
+        let (middle, last) = (place(dense, first, to * 0.5), place(dense, first, to));
         let whole = winding::turn(&heading, &last);
         let (left, right) = (winding::turn(&heading, &middle), winding::turn(&middle, &last));
-        let below = |x: S, limit: f64| S::bits(x.abs().less(x.constant(limit)));
-        let settled = below(whole, 0.25)
-            | below(left, winding::DOUBTFUL)
-                & below(right, winding::DOUBTFUL)
-                & below(left + right - whole, 1e-6)
+        let (both, gap) = (left.abs().max(right.abs()), (left + right - whole).abs());
+        let settled = S::bits(whole.abs().less(whole.constant(0.25)))
+            | S::bits(both.less(whole.constant(winding::DOUBTFUL)))
+                & S::bits(gap.less(whole.constant(1e-6)))
                 & !(S::bits(winding::hugs_axis(&heading)) & S::bits(winding::hugs_axis(&last)));
         let mut swept = whole.scatter();
         let mut open = wanted & !settled;
@@ -263,4 +256,9 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             }
         }
     }
+}
+
+#[inline(always)]
+fn place<S: Scalar, const D: usize>(dense: &Dense<S, D>, first: usize, theta: S) -> Vec3<S> {
+    [dense.component(first, theta), dense.component(first + 1, theta), dense.component(first + 2, theta)]
 }

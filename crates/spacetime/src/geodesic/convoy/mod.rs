@@ -6,6 +6,7 @@
 
 mod column;
 mod events;
+mod pair;
 mod rank;
 mod record;
 
@@ -18,6 +19,7 @@ use crate::lanes::{Lanes, OnLanes};
 use crate::metric::Metric;
 use column::Column;
 use fearless_simd::Simd;
+use pair::Pair;
 
 /// Rays to follow, and where to put what is found.
 pub struct Task<'a, M> {
@@ -62,16 +64,16 @@ impl<M: Metric> OnLanes for Task<'_, M> {
     fn run<L: Simd>(mut self, simd: L) {
         match (self.integrator.scheme, self.query.elapsed) {
             (Scheme::Dop853 { .. }, false) => {
-                Column::<PLAIN, 12, 8>::new().follow::<L, Lanes<L>, M, Dop853>(simd, &mut self);
+                Column::<PLAIN, 12, 16>::new().follow::<L, Pair<Lanes<L>>, M, Dop853>(simd, &mut self);
             }
             (Scheme::Dop853 { .. }, true) => {
-                Column::<TIMED, 12, 8>::new().follow::<L, Lanes<L>, M, Dop853>(simd, &mut self);
+                Column::<TIMED, 12, 16>::new().follow::<L, Pair<Lanes<L>>, M, Dop853>(simd, &mut self);
             }
             (Scheme::Tsit5 { .. }, false) => {
-                Column::<PLAIN, 6, 8>::new().follow::<L, Lanes<L>, M, Tsit5>(simd, &mut self);
+                Column::<PLAIN, 6, 16>::new().follow::<L, Pair<Lanes<L>>, M, Tsit5>(simd, &mut self);
             }
             (Scheme::Tsit5 { .. }, true) => {
-                Column::<TIMED, 6, 8>::new().follow::<L, Lanes<L>, M, Tsit5>(simd, &mut self);
+                Column::<TIMED, 6, 16>::new().follow::<L, Pair<Lanes<L>>, M, Tsit5>(simd, &mut self);
             }
             (Scheme::Rk4 { .. }, _) => {}
         }

@@ -1,5 +1,6 @@
 //! Rays side by side as one number: eight lanes, or twice eight.
 
+use super::pair::Pair;
 use crate::lanes::Lanes;
 use crate::scalar::Scalar;
 use fearless_simd::Simd;
@@ -32,6 +33,31 @@ impl<L: Simd> Rank<L, 8> for Lanes<L> {
     #[inline(always)]
     fn mask(simd: L, bits: u64) -> Self::Mask {
         Self::bits_mask(simd, bits)
+    }
+}
+
+impl<L: Simd> Rank<L, 16> for Pair<Lanes<L>> {
+    #[inline(always)]
+    fn gather(simd: L, values: &[f64; 16]) -> Self {
+        let (mut first, mut second) = ([0.0; 8], [0.0; 8]);
+        first.copy_from_slice(&values[..8]);
+        second.copy_from_slice(&values[8..]);
+        Self(Lanes::new(simd, first), Lanes::new(simd, second))
+    }
+    #[inline(always)]
+    fn scatter(self) -> [f64; 16] {
+        let mut values = [0.0; 16];
+        values[..8].copy_from_slice(&self.0.to_array());
+        values[8..].copy_from_slice(&self.1.to_array());
+        values
+    }
+    #[inline(always)]
+    fn bits((first, second): Self::Mask) -> u64 {
+        Lanes::mask_bits(first) | Lanes::mask_bits(second) << 8
+    }
+    #[inline(always)]
+    fn mask(simd: L, bits: u64) -> Self::Mask {
+        (Lanes::bits_mask(simd, bits & 0xff), Lanes::bits_mask(simd, bits >> 8))
     }
 }
 
