@@ -31,7 +31,11 @@ pub fn dot<S: Scalar>(a: &Vec3<S>, b: &Vec3<S>) -> S {
 /// a × b.
 #[inline(always)]
 pub fn cross<S: Scalar>(a: &Vec3<S>, b: &Vec3<S>) -> Vec3<S> {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    [
+        a[1].mul_add(b[2], -(a[2] * b[1])),
+        a[2].mul_add(b[0], -(a[0] * b[2])),
+        a[0].mul_add(b[1], -(a[1] * b[0])),
+    ]
 }
 
 /// T_{μν} vᵛ.
@@ -46,7 +50,8 @@ pub fn contract<S: Scalar>(tensor: &Tensor<S>, vector: &Vec4<S>) -> Vec4<S> {
 /// A covector applied to a vector.
 #[inline(always)]
 pub fn pair<S: Scalar>(covector: &Vec4<S>, vector: &Vec4<S>) -> S {
-    covector[0] * vector[0] + covector[1] * vector[1] + covector[2] * vector[2] + covector[3] * vector[3]
+    let first = covector[0].mul_add(vector[0], covector[1] * vector[1]);
+    covector[2].mul_add(vector[2], covector[3].mul_add(vector[3], first))
 }
 
 /// T_{μν} aᵘ bᵛ.

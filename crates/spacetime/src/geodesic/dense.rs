@@ -62,13 +62,13 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
         y
     }
 
-    /// The sum of some components from number `first` on, each times its weight.
+    /// The sum of the first components, each times its weight.
     #[inline(always)]
-    pub(super) fn weighted<const N: usize>(&self, first: usize, weights: &[f64; N]) -> Dense<S, 1> {
-        let start = [weighted_sum(&self.start, first, weights)];
+    pub(super) fn weighted<const N: usize>(&self, weights: &[S; N]) -> Dense<S, 1> {
+        let start = [weighted_sum(&self.start, weights)];
         let mut terms = [start; 7];
         for n in 0..self.used {
-            terms[n] = [weighted_sum(&self.terms[n], first, weights)];
+            terms[n] = [weighted_sum(&self.terms[n], weights)];
         }
         Dense { start, terms, used: self.used }
     }
@@ -81,14 +81,10 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
 }
 
 #[inline(always)]
-fn weighted_sum<S: Scalar, const D: usize, const N: usize>(
-    y: &[S; D],
-    first: usize,
-    weights: &[f64; N],
-) -> S {
-    let mut sum = y[first] * weights[0];
+fn weighted_sum<S: Scalar, const D: usize, const N: usize>(y: &[S; D], weights: &[S; N]) -> S {
+    let mut sum = y[0] * weights[0];
     for i in 1..N {
-        sum = y[first + i].mul_add(sum.constant(weights[i]), sum);
+        sum = y[i].mul_add(weights[i], sum);
     }
     sum
 }
@@ -137,7 +133,7 @@ impl<S: Scalar> Dense<S, 1> {
             let moved = (next - theta).abs();
             theta = S::select(zero.less(busy), next, theta);
             // A step this small leaves the square of it as an error.
-            busy = S::select(moved.constant(1e-10).less(moved), busy, zero);
+            busy = S::select(moved.constant(1e-8).less(moved), busy, zero);
             if !S::any(zero.less(busy)) {
                 break;
             }

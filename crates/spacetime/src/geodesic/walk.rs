@@ -99,7 +99,8 @@ where
         if adaptive {
             h = h.min(chart.step_for(&y, control.max_turn));
         }
-        let step = M::step(chart, &y, &slope, h);
+        let mut stages = [slope; STAGES];
+        let step = M::step(chart, &y, &mut stages, h);
         let finite = step.error.is_finite() && step.end.iter().take(D & !1).all(|c| c.is_finite());
         let ratio = step.error / control.tolerance;
         if !finite || (adaptive && ratio > 1.0) {
@@ -128,7 +129,7 @@ where
         let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
         let mut stop = if falls { Some(Stop::Fell) } else { None };
         if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis || rises.is_some() {
-            let dense = M::dense(chart, &y, &step, &end_slope, h);
+            let dense = M::dense(chart, &y, &stages, &step.end, &end_slope, h);
             let mut until = 1.0;
             if let Some(exit) = rises {
                 // A step may reach far beyond.

@@ -90,15 +90,16 @@ impl<S: Scalar> Field<S> {
     #[inline(always)]
     fn pull(&self, x: &Vec3<S>, p: &Vec3<S>, energy: S, spin: S) -> Pull<S> {
         let a = x[0].mul_add(p[0], x[1] * p[1]);
-        let c = x[1] * p[0] - x[0] * p[1];
+        let c = x[1].mul_add(p[0], -(x[0] * p[1]));
         let g = self.weight * self.r.mul_add(a, spin * c);
-        let rise = self.inverse_r * p[2];
-        let l = g + x[2] * rise + energy;
-        // ∂(l·p)/∂r at fixed x: w(A − 2rg) − z p_z/r².
-        let slope = self.weight * (a - self.r * g * 2.0) - x[2] * rise * self.inverse_r;
+        let rise = x[2] * (self.inverse_r * p[2]);
+        let l = g + rise + energy;
+        // −∂(l·p)/∂r at fixed x: w(2rg − A) + z p_z/r².
+        let inwards = (self.r * 2.0).mul_add(g, -a);
+        let fall = self.weight.mul_add(inwards, rise * self.inverse_r);
         // K/f = ½ℓ²(3/r − 4r/Σ) + ℓ N_r.
-        let explicit = self.inverse_r * 3.0 - self.r * self.inverse_sigma * 4.0;
-        Pull { l, along_r: l * (l * explicit * 0.5 + slope) }
+        let explicit = (self.r * -2.0).mul_add(self.inverse_sigma, self.inverse_r * 1.5);
+        Pull { l, along_r: l * l.mul_add(explicit, -fall) }
     }
 }
 
@@ -178,31 +179,32 @@ impl Metric for Kerr {
         let f = field.r * field.inverse_sigma * 2.0;
         let drift = f * l;
         let radial = f * along_r;
-        let lengthening = drift * dot(&n, &field.l) * (-(dot(&n, &n) * 2.0) + 3.0);
+        let lengthening = drift * dot(&n, &field.l) * dot(&n, &n).mul_add(w.constant(-2.0), w.constant(3.0));
         let turn: Vec3<S> = each(
             #[inline(always)]
-            |i| k[i] - drift * field.l[i] + n[i] * lengthening,
+            |i| n[i].mul_add(lengthening, (-drift).mul_add(field.l[i], k[i])),
         );
         let height = s * n[2] * field.inverse_r;
         let flattening = height.squared();
         let oblate = drift * l * field.inverse_sigma;
-        let pull = radial * field.r * field.inverse_sigma * (flattening + 1.0) + drift * (l - energy)
-            - oblate * flattening;
+        let inwards = radial * field.inverse_sigma;
+        let level = (inwards * field.r).mul_add(flattening + 1.0, drift * (l - energy));
+        let pull = flattening.mul_add(-oblate, level);
         // Frame dragging turns J about z; oblateness tilts it.
         let whirl = drift * field.weight;
         let precession = whirl * s;
         let tilt = s * self.spin;
         let mixed = tilt * whirl * field.inverse_r;
-        let bulge = tilt * n[2] * field.inverse_r * (radial * field.inverse_sigma - oblate * field.inverse_r);
+        let bulge = tilt * n[2] * field.inverse_r * oblate.mul_add(-field.inverse_r, inwards);
         let torque: [S; 2] = each(
             #[inline(always)]
-            |i| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i],
+            |i| mixed.mul_add(p[2].mul_add(n[i], n[2] * p[i]), bulge * n[i]),
         );
         Inverted {
-            w: w * lengthening - q,
+            w: w.mul_add(lengthening, -q),
             n: turn,
-            q: w * dot(&turn, &k) + pull,
-            j: [torque[1] - precession * j[1], precession * j[0] - torque[0], w.constant(0.0)],
+            q: w.mul_add(dot(&turn, &k), pull),
+            j: [precession.mul_add(-j[1], torque[1]), precession.mul_add(j[0], -torque[0]), w.constant(0.0)],
         }
     }
 

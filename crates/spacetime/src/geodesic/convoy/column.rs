@@ -1,7 +1,8 @@
 //! The rays that are under way.
 
 use super::Task;
-use super::events::{Events, Kinds};
+use super::events::{Event, Events, Kind};
+use super::inverted_place as place;
 use super::rank::{Rank, gather, scatter};
 use super::record::Record;
 use crate::geodesic::chart::Chart;
@@ -53,6 +54,16 @@ impl<const D: usize, const W: usize> Rays<D, W> {
         self.above[to] = other.above[from];
         self.swept[to] = other.swept[from];
     }
+}
+
+/// What happens in a step, a bit for each lane.
+#[derive(Clone, Copy, Default)]
+struct Kinds {
+    crosses: u64,
+    grazes: u64,
+    leaves: u64,
+    falls: u64,
+    turns: u64,
 }
 
 /// What came of trying a step, a bit for each lane.
@@ -200,7 +211,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
         let slope: [S; D] = gather(simd, &rays.slope);
         let h = S::gather(simd, &rays.h).min(flow.step_for(&y, control.max_turn));
         let (zero, one) = (h.constant(0.0), h.constant(1.0));
-        let step = R::step(&flow, &y, &slope, h);
+        let mut stages = [slope; STAGES];
+        let step = R::step(&flow, &y, &mut stages, h);
         let end_slope = match step.end_slope {
             Some(slope) => slope,
             None => flow.derivative(&step.end),
@@ -250,7 +262,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
             record.end_slope = scatter(&end_slope);
             for stage in 0..STAGES {
                 if stage == 0 || stage > R::SPARED {
-                    record.stages[stage] = scatter(&step.stages[stage]);
+                    record.stages[stage] = scatter(&stages[stage]);
                 }
             }
             record.h = h.scatter();
@@ -304,10 +316,19 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
             }
         }
         for lane in Ones(kinds.crosses | kinds.grazes | kinds.leaves | kinds.turns) {
-            let full =
-                self.events.push::<R>(&self.record, lane, &kinds, self.numbers[lane], self.steps[lane]);
-            if full {
-                self.events.flush::<L, S, M, R>(simd, task);
+            let is = |bits: u64| bits >> lane & 1 != 0;
+            let why = [
+                (is(kinds.crosses), Kind::Crosses),
+                (is(kinds.grazes), Kind::Grazes),
+                (is(kinds.leaves), Kind::Leaves),
+                (is(kinds.turns & !kinds.leaves), Kind::Turns),
+            ];
+            for (_, kind) in why.into_iter().filter(|(so, _)| *so) {
+                let (ray, steps) = (self.numbers[lane], self.steps[lane]);
+                let event = Event { ray, steps, kind, falls: is(kinds.falls) };
+                if self.events.push::<R>(&self.record, lane, event) {
+                    self.events.flush::<L, S, M, R>(simd, task);
+                }
             }
         }
         let ended = accepted & (kinds.leaves | kinds.falls);
@@ -339,11 +360,6 @@ impl Iterator for Ones {
         self.0 &= self.0.wrapping_sub(1);
         some.then_some(lane)
     }
-}
-
-#[inline(always)]
-fn place<S: Scalar, const D: usize>(y: &[S; D]) -> Vec3<S> {
-    [y[1], y[2], y[3]]
 }
 
 /// A place's height above a plane.

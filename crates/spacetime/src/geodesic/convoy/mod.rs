@@ -17,6 +17,8 @@ use super::walk::{End, Visitor};
 use super::{Integrator, Path, Query, Ray, Scheme};
 use crate::lanes::{Lanes, OnLanes};
 use crate::metric::Metric;
+use crate::scalar::Scalar;
+use crate::tensor::Vec3;
 use column::Column;
 use fearless_simd::Simd;
 use pair::Pair;
@@ -78,4 +80,10 @@ impl<M: Metric> OnLanes for Task<'_, M> {
             (Scheme::Rk4 { .. }, _) => {}
         }
     }
+}
+
+/// The place in a state of the inverted chart, or in its slope.
+#[inline(always)]
+fn inverted_place<S: Scalar, const D: usize>(y: &[S; D]) -> Vec3<S> {
+    [y[1], y[2], y[3]]
 }
