@@ -47,9 +47,9 @@ fn run<M: Method<STAGES>, const STAGES: usize>(steps: u32) -> (f64, f64) {
     let (mut y, mut between) = (kepler(0.0), 0.0_f64);
     for i in 0..steps {
         let slope = Kepler.derivative(&y);
-        let mut k = [slope; STAGES];
-        let step = M::step(&Kepler, &y, &mut k, h);
-        let dense = M::dense(&Kepler, &y, &k, &step.end, &Kepler.derivative(&step.end), h);
+        let mut stages = [slope; STAGES];
+        let step = M::step(&Kepler, &y, &mut stages, h);
+        let dense = M::dense(&Kepler, &y, &stages, &step.end, &Kepler.derivative(&step.end), h);
         for k in 1..16 {
             let share = f64::from(k) / 16.0;
             between = largest([between, apart(dense.at(share), kepler((f64::from(i) + share) * h))]);
@@ -104,9 +104,9 @@ impl Flow<f64, 2> for Power {
 /// One step over [0, 1] for tᵏ: the error of the step, and the largest of the dense output.
 fn quadrature<M: Method<STAGES>, const STAGES: usize>(k: i32) -> (f64, f64) {
     let (flow, y) = (Power(k), [0.0, 0.0]);
-    let mut k = [flow.derivative(&y); STAGES];
-    let step = M::step(&flow, &y, &mut k, 1.0);
-    let dense = M::dense(&flow, &y, &k, &step.end, &flow.derivative(&step.end), 1.0);
+    let mut stages = [flow.derivative(&y); STAGES];
+    let step = M::step(&flow, &y, &mut stages, 1.0);
+    let dense = M::dense(&flow, &y, &stages, &step.end, &flow.derivative(&step.end), 1.0);
     let exact = |t: f64| t.powi(k + 1) / f64::from(k + 1);
     let between =
         largest((0..=20).map(|i| (dense.at(f64::from(i) / 20.0)[0] - exact(f64::from(i) / 20.0)).abs()));
@@ -145,9 +145,9 @@ fn polynomials() {
 /// One step of `h` from t = ½.
 fn one<M: Method<STAGES>, const STAGES: usize>(h: f64) -> (Step<f64, 4>, Dense<f64, 4>) {
     let y = kepler(0.5);
-    let mut k = [Kepler.derivative(&y); STAGES];
-    let step = M::step(&Kepler, &y, &mut k, h);
-    let dense = M::dense(&Kepler, &y, &k, &step.end, &Kepler.derivative(&step.end), h);
+    let mut stages = [Kepler.derivative(&y); STAGES];
+    let step = M::step(&Kepler, &y, &mut stages, h);
+    let dense = M::dense(&Kepler, &y, &stages, &step.end, &Kepler.derivative(&step.end), h);
     (step, dense)
 }
 

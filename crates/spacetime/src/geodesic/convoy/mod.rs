@@ -22,6 +22,7 @@ use crate::tensor::Vec3;
 use column::Column;
 use fearless_simd::Simd;
 use pair::Pair;
+use rank::Rank;
 
 /// Rays to follow, and where to put what is found.
 pub struct Task<'a, M> {
@@ -64,19 +65,29 @@ impl<M: Metric> OnLanes for Task<'_, M> {
 
     #[inline(always)]
     fn run<L: Simd>(mut self, simd: L) {
+        // Where eight numbers are one register, two of them fill the processor better.
+        if const { size_of::<L::f64s>() == 64 } {
+            self.follow::<L, Pair<Lanes<L>>, 16>(simd);
+        } else {
+            self.follow::<L, Lanes<L>, 8>(simd);
+        }
+    }
+}
+
+impl<M: Metric> Task<'_, M> {
+    #[inline(always)]
+    fn follow<L: Simd, S: Rank<L, W>, const W: usize>(&mut self, simd: L) {
         match (self.integrator.scheme, self.query.elapsed) {
             (Scheme::Dop853 { .. }, false) => {
-                Column::<PLAIN, 12, 16>::new().follow::<L, Pair<Lanes<L>>, M, Dop853>(simd, &mut self);
+                Column::<PLAIN, 12, W>::new().follow::<L, S, M, Dop853>(simd, self);
             }
             (Scheme::Dop853 { .. }, true) => {
-                Column::<TIMED, 12, 16>::new().follow::<L, Pair<Lanes<L>>, M, Dop853>(simd, &mut self);
+                Column::<TIMED, 12, W>::new().follow::<L, S, M, Dop853>(simd, self);
             }
             (Scheme::Tsit5 { .. }, false) => {
-                Column::<PLAIN, 6, 16>::new().follow::<L, Pair<Lanes<L>>, M, Tsit5>(simd, &mut self);
+                Column::<PLAIN, 6, W>::new().follow::<L, S, M, Tsit5>(simd, self)
             }
-            (Scheme::Tsit5 { .. }, true) => {
-                Column::<TIMED, 6, 16>::new().follow::<L, Pair<Lanes<L>>, M, Tsit5>(simd, &mut self);
-            }
+            (Scheme::Tsit5 { .. }, true) => Column::<TIMED, 6, W>::new().follow::<L, S, M, Tsit5>(simd, self),
             (Scheme::Rk4 { .. }, _) => {}
         }
     }
