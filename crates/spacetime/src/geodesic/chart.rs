@@ -31,6 +31,12 @@ pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
     /// A step over which a free photon turns by at most `angle` as seen from the origin.
     fn step_for(&self, y: &[S; D], angle: f64) -> S;
 
+    /// A step that ends about where the chart's equations do, if they do.
+    #[inline(always)]
+    fn way_out(&self, y: &[S; D], _slope: &[S; D]) -> S {
+        y[0].constant(f64::INFINITY)
+    }
+
     /// The place of a state, or its slope.
     #[inline(always)]
     fn place(y: &[S; D]) -> Vec3<S> {
@@ -91,6 +97,19 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
     fn step_for(&self, y: &[S; D], angle: f64) -> S {
         let j = [y[5], y[6], y[7]];
         y[0].constant(angle) / (dot(&j, &j).sqrt() + self.energy.abs() + y[4].abs() * y[0])
+    }
+    /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it.
+    #[inline(always)]
+    fn way_out(&self, y: &[S; D], slope: &[S; D]) -> S {
+        let never = y[0].constant(f64::INFINITY);
+        if M::PASSES_INFINITY {
+            return never;
+        }
+        let j = [y[5], y[6], y[7]];
+        let approach = -slope[0];
+        let turn = dot(&j, &j) * (y[0] / approach).squared() * 0.5 + y[0] * 2.0 + 1.0;
+        let outwards = y[0].constant(0.0).less(approach);
+        S::select(outwards, (y[0].max(y[0] * 0.0) + 1e-4) / (approach * turn), never)
     }
 }
 

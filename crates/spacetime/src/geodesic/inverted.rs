@@ -46,9 +46,9 @@ pub fn pack<S: Scalar, const D: usize>(state: &Inverted<S>) -> [S; D] {
     )
 }
 
-impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
+impl<M: Metric, S: Scalar> InvertedFlow<M, S> {
     #[inline(always)]
-    fn derivative(&self, y: &[S; D]) -> [S; D] {
+    fn slope<const D: usize>(&self, y: &[S; D]) -> [S; D] {
         let state = unpack(y);
         let rate = self.metric.inverted_rate(self.energy, &state);
         let mut slope = pack(&rate);
@@ -62,6 +62,20 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
             slope[8] = S::select(at_infinity, zero, (y[9] * rate.w - pull) / state.w);
         }
         slope
+    }
+}
+
+impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
+    #[inline(always)]
+    fn derivative(&self, y: &[S; D]) -> [S; D] {
+        if M::PASSES_INFINITY {
+            return self.slope(y);
+        }
+        // Equations by dual numbers are long, and a step has a dozen of them.
+        y[0].outline(
+            #[inline(always)]
+            || self.slope(y),
+        )
     }
 
     /// n counts by itself; w against 1/b, the inverse distance of closest approach in flat

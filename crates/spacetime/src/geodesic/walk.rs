@@ -97,7 +97,7 @@ where
         }
         steps += 1;
         if adaptive {
-            h = h.min(chart.step_for(&y, control.max_turn));
+            h = h.min(chart.step_for(&y, control.max_turn)).min(chart.way_out(&y, &slope));
         }
         let mut stages = [slope; STAGES];
         let step = M::step(chart, &y, &mut stages, h);

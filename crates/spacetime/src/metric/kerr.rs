@@ -10,6 +10,7 @@ use super::{Inverted, Metric, Rate};
 use crate::kerr::horizons;
 use crate::scalar::Scalar;
 use crate::tensor::{Tensor, Vec3, cross, dot, each};
+use std::ops::{Add, Mul, Sub};
 
 /// A hole of mass 1 and spin s in [−1, 1] about +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,13 +42,21 @@ pub(crate) fn principal_null<S: Scalar>(spin: S, state: &Inverted<S>) -> Vec3<S>
     Field::at(&state.n, state.w * spin).l
 }
 
+/// The spin at a place: a constant, or one that scales with the distance.
+trait Spin: Copy + Mul<Output = Self> {}
+impl<P: Copy + Mul<Output = P>> Spin for P {}
+
+/// What arithmetic there has to be with it.
+trait Times<P>: Add<P, Output = Self> + Sub<P, Output = Self> + Mul<P, Output = Self> + Sized {}
+impl<P, S: Add<P, Output = S> + Sub<P, Output = S> + Mul<P, Output = S>> Times<P> for S {}
+
 /// Σ/2 and r² at x around a hole of spin s.
 #[inline(always)]
-fn spheroid<S: Scalar>(x: &Vec3<S>, spin: S) -> [S; 2] {
+fn spheroid<S: Scalar + Times<P>, P: Spin>(x: &Vec3<S>, spin: P) -> [S; 2] {
     let [x, y, z] = *x;
     let (s2, z2) = (spin * spin, z * z);
     let half = (x.mul_add(x, y.mul_add(y, z2)) - s2) * 0.5;
-    let half_sigma = half.mul_add(half, s2 * z2).sqrt();
+    let half_sigma = half.mul_add(half, z2 * s2).sqrt();
     [half_sigma, half + half_sigma]
 }
 
@@ -67,11 +76,14 @@ struct Field<S> {
 
 impl<S: Scalar> Field<S> {
     #[inline(always)]
-    fn at(x: &Vec3<S>, spin: S) -> Self {
+    fn at<P: Spin>(x: &Vec3<S>, spin: P) -> Self
+    where
+        S: Times<P>,
+    {
         let [half_sigma, r2] = spheroid(x, spin);
         let [x, y, z] = *x;
         let r = r2.sqrt();
-        let wide = spin.mul_add(spin, r2);
+        let wide = r2 + spin * spin;
         // One division for three: they cost more than all else here.
         let both = half_sigma * r;
         let inverse = (both * wide).recip();
@@ -82,7 +94,7 @@ impl<S: Scalar> Field<S> {
             inverse_r,
             inverse_sigma: inverse * (r * wide) * 0.5,
             weight,
-            l: [r.mul_add(x, spin * y) * weight, r.mul_add(y, -(spin * x)) * weight, z * inverse_r],
+            l: [r.mul_add(x, y * spin) * weight, r.mul_add(y, -(x * spin)) * weight, z * inverse_r],
         }
     }
 
@@ -109,6 +121,8 @@ struct Pull<S> {
 }
 
 impl Metric for Kerr {
+    const PASSES_INFINITY: bool = true;
+
     #[inline(always)]
     fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
         kerr_schild(self.spin, x, 1.0)
@@ -121,7 +135,7 @@ impl Metric for Kerr {
 
     #[inline(always)]
     fn radius<S: Scalar>(&self, x: &Vec3<S>) -> S {
-        spheroid(x, x[0].constant(self.spin))[1].sqrt()
+        spheroid(x, self.spin)[1].sqrt()
     }
 
     fn horizon(&self) -> f64 {
@@ -319,25 +333,17 @@ impl Metric for Kerr {
 /// η ± f l l, all indices down for +1, all up for −1 (then l^t = −l_t).
 #[inline(always)]
 fn kerr_schild<S: Scalar>(spin: f64, x: &Vec3<S>, sign: f64) -> Tensor<S> {
-    let field = Field::at(x, x[0].constant(spin));
+    let field = Field::at(x, spin);
     let f = field.r * field.inverse_sigma * (2.0 * sign);
-    let l = [f.constant(sign), field.l[0], field.l[1], field.l[2]];
-    each(
-        #[inline(always)]
-        |m| {
-            each(
-                #[inline(always)]
-                |n| {
-                    let flat = if m != n {
-                        0.0
-                    } else if m == 0 {
-                        -1.0
-                    } else {
-                        1.0
-                    };
-                    f * l[m] * l[n] + flat
-                },
-            )
-        },
-    )
+    let [a, b, c] = field.l;
+    let (fa, fb, fc) = (f * a, f * b, f * c);
+    // With l_t = ±1; nothing is multiplied by it, for a dual number would be by its zeros too.
+    let [ta, tb, tc] = [fa * sign, fb * sign, fc * sign];
+    let (ab, ac, bc) = (fa * b, fa * c, fb * c);
+    [
+        [f - 1.0, ta, tb, tc],
+        [ta, fa * a + 1.0, ab, ac],
+        [tb, ab, fb * b + 1.0, bc],
+        [tc, ac, bc, fc * c + 1.0],
+    ]
 }

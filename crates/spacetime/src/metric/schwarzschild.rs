@@ -11,6 +11,8 @@ use crate::tensor::{Tensor, Vec3, cross, dot, each};
 pub struct Schwarzschild;
 
 impl Metric for Schwarzschild {
+    const PASSES_INFINITY: bool = true;
+
     #[inline(always)]
     fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
         Kerr::new(0.0).components(x)

@@ -209,7 +209,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
         let flow = InvertedFlow { metric, energy: S::gather(simd, &rays.energy) };
         let y: [S; D] = gather(simd, &rays.y);
         let slope: [S; D] = gather(simd, &rays.slope);
-        let h = S::gather(simd, &rays.h).min(flow.step_for(&y, control.max_turn));
+        let h =
+            S::gather(simd, &rays.h).min(flow.step_for(&y, control.max_turn)).min(flow.way_out(&y, &slope));
         let (zero, one) = (h.constant(0.0), h.constant(1.0));
         let mut stages = [slope; STAGES];
         let step = R::step(&flow, &y, &mut stages, h);
