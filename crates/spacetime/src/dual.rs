@@ -4,6 +4,7 @@
 //! differentiation without truncation error. Nesting gives higher derivatives.
 
 use crate::scalar::Scalar;
+use crate::tensor::each;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// A value and its derivatives in `N` directions, over any scalar.
@@ -37,7 +38,10 @@ impl<S: Scalar, const N: usize> Dual<S, N> {
     /// All variables of `point` at once.
     #[inline(always)]
     pub fn variables(point: [S; N]) -> [Self; N] {
-        std::array::from_fn(|i| Self::variable(point, i))
+        each(
+            #[inline(always)]
+            |i| Self::variable(point, i),
+        )
     }
 
     /// A number that depends on no variable.
@@ -49,12 +53,24 @@ impl<S: Scalar, const N: usize> Dual<S, N> {
     /// f(self) from f and f′ at the value.
     #[inline(always)]
     fn chain(self, value: S, slope: S) -> Self {
-        Self { value, gradient: self.gradient.map(|d| d * slope) }
+        Self {
+            value,
+            gradient: each(
+                #[inline(always)]
+                |i| self.gradient[i] * slope,
+            ),
+        }
     }
 
     #[inline(always)]
     fn zip(self, other: Self, value: S, f: impl Fn(S, S) -> S) -> Self {
-        Self { value, gradient: std::array::from_fn(|i| f(self.gradient[i], other.gradient[i])) }
+        Self {
+            value,
+            gradient: each(
+                #[inline(always)]
+                |i| f(self.gradient[i], other.gradient[i]),
+            ),
+        }
     }
 }
 
@@ -62,7 +78,13 @@ impl<S: Scalar, const N: usize> Neg for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Self { value: -self.value, gradient: self.gradient.map(|d| -d) }
+        Self {
+            value: -self.value,
+            gradient: each(
+                #[inline(always)]
+                |i| -self.gradient[i],
+            ),
+        }
     }
 }
 
@@ -70,7 +92,12 @@ impl<S: Scalar, const N: usize> Add for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        self.zip(other, self.value + other.value, |a, b| a + b)
+        self.zip(
+            other,
+            self.value + other.value,
+            #[inline(always)]
+            |a, b| a + b,
+        )
     }
 }
 
@@ -78,7 +105,12 @@ impl<S: Scalar, const N: usize> Sub for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        self.zip(other, self.value - other.value, |a, b| a - b)
+        self.zip(
+            other,
+            self.value - other.value,
+            #[inline(always)]
+            |a, b| a - b,
+        )
     }
 }
 
@@ -86,7 +118,12 @@ impl<S: Scalar, const N: usize> Mul for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.zip(other, self.value * other.value, |a, b| a.mul_add(other.value, self.value * b))
+        self.zip(
+            other,
+            self.value * other.value,
+            #[inline(always)]
+            |a, b| a.mul_add(other.value, self.value * b),
+        )
     }
 }
 
@@ -98,7 +135,12 @@ impl<S: Scalar, const N: usize> Div for Dual<S, N> {
     fn div(self, other: Self) -> Self {
         let inverse = other.value.recip();
         let value = self.value * inverse;
-        self.zip(other, value, |a, b| (a - value * b) * inverse)
+        self.zip(
+            other,
+            value,
+            #[inline(always)]
+            |a, b| (a - value * b) * inverse,
+        )
     }
 }
 
@@ -122,7 +164,13 @@ impl<S: Scalar, const N: usize> Mul<f64> for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: f64) -> Self {
-        Self { value: self.value * other, gradient: self.gradient.map(|d| d * other) }
+        Self {
+            value: self.value * other,
+            gradient: each(
+                #[inline(always)]
+                |i| self.gradient[i] * other,
+            ),
+        }
     }
 }
 
@@ -130,7 +178,13 @@ impl<S: Scalar, const N: usize> Div<f64> for Dual<S, N> {
     type Output = Self;
     #[inline(always)]
     fn div(self, other: f64) -> Self {
-        Self { value: self.value / other, gradient: self.gradient.map(|d| d / other) }
+        Self {
+            value: self.value / other,
+            gradient: each(
+                #[inline(always)]
+                |i| self.gradient[i] / other,
+            ),
+        }
     }
 }
 
@@ -208,7 +262,12 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     fn atan2(self, x: Self) -> Self {
         let inverse = (self.value.squared() + x.value.squared()).recip();
         let (along_y, along_x) = (x.value * inverse, self.value * inverse);
-        self.zip(x, self.value.atan2(x.value), |dy, dx| dy * along_y - dx * along_x)
+        self.zip(
+            x,
+            self.value.atan2(x.value),
+            #[inline(always)]
+            |dy, dx| dy * along_y - dx * along_x,
+        )
     }
     #[inline(always)]
     fn outline<R>(self, part: impl FnOnce() -> R) -> R {
@@ -233,7 +292,12 @@ impl<S: Scalar, const N: usize> Scalar for Dual<S, N> {
     }
     #[inline(always)]
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
-        a.zip(b, S::select(mask, a.value, b.value), |x, y| S::select(mask, x, y))
+        a.zip(
+            b,
+            S::select(mask, a.value, b.value),
+            #[inline(always)]
+            |x, y| S::select(mask, x, y),
+        )
     }
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {

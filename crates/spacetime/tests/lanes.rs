@@ -315,17 +315,19 @@ fn steps<L: Simd, M: Method<STAGES>, const STAGES: usize>(simd: L) {
         let pack = |s: &Inverted<Lanes<L>>| [s.w, s.n[0], s.n[1], s.n[2], s.q, s.j[0], s.j[1], s.j[2]];
         let y = pack(&state);
         let slope = pack(&metric.inverted_rate(energy, &state));
-        let step = M::step(&flow, &y, &slope, h);
+        let mut k = [slope; STAGES];
+        let step = M::step(&flow, &y, &mut k, h);
         let end_slope = Flow::derivative(&flow, &step.end);
-        let dense = M::dense(&flow, &y, &step, &end_slope, h).at(h.constant(0.4));
+        let dense = M::dense(&flow, &y, &k, &step.end, &end_slope, h).at(h.constant(0.4));
         for k in 0..8 {
             let flow = InvertedFlow { metric, energy: energies[k] };
             let s = states[k];
             let y = [s.w, s.n[0], s.n[1], s.n[2], s.q, s.j[0], s.j[1], s.j[2]];
             let slope = Flow::derivative(&flow, &y);
-            let one = M::step(&flow, &y, &slope, sizes[k]);
+            let mut stages = [slope; STAGES];
+            let one = M::step(&flow, &y, &mut stages, sizes[k]);
             let end_slope = Flow::derivative(&flow, &one.end);
-            let one_dense = M::dense(&flow, &y, &one, &end_slope, sizes[k]).at(0.4);
+            let one_dense = M::dense(&flow, &y, &stages, &one.end, &end_slope, sizes[k]).at(0.4);
             let scale = size(energies[k], &s).sqrt();
             let place = || format!("{metric:?}, {s:?}, h = {}", sizes[k]);
             for i in 0..8 {

@@ -144,7 +144,7 @@ fn momentum_is_constant() {
         // Over half of the angle that the line turns through from −∞ to ∞.
         for _ in 0..200 {
             let rate = Minkowski.inverted_rate(ray.energy, &unpack(&y));
-            y = Tsit5::step(&flow, &y, &pack(&rate), 0.005 / turn).end;
+            y = Tsit5::step(&flow, &y, &mut [pack(&rate); 6], 0.005 / turn).end;
         }
         let state = unpack(&y);
         let x = state.n.map(|c| c / state.w);

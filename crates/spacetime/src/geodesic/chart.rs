@@ -5,65 +5,111 @@ use super::flow::Flow;
 use super::inverted::{InvertedFlow, TIMED, pack, unpack};
 use super::ray::Ray;
 use crate::metric::{Inverted, Metric};
+use crate::scalar::Scalar;
 use crate::tensor::{Vec3, dot};
 
 /// A chart whose state contains a place in consecutive components.
-pub trait Chart<const D: usize>: Flow<f64, D> {
+pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
     /// First of the three components that point to the photon.
     const PLACE: usize;
 
     /// −p_t.
-    fn energy(&self) -> f64;
+    fn energy(&self) -> S;
     /// The state at the start of a ray.
-    fn start(&self, ray: &Inverted<f64>) -> [f64; D];
+    fn start(&self, ray: &Inverted<S>) -> [S; D];
     /// Place and momentum.
-    fn state(&self, y: &[f64; D]) -> Inverted<f64>;
+    fn state(&self, y: &[S; D]) -> Inverted<S>;
     /// T of the elapsed time t = (x·p + T)/E, zero if it is not integrated.
-    fn virial(&self, y: &[f64; D]) -> f64;
-    /// Whether the state had to be rewritten, the photon being the same, to be regular further on.
-    fn settle(&self, _y: &mut [f64; D]) -> bool {
-        false
-    }
+    fn virial(&self, y: &[S; D]) -> S;
+    /// Rewrites a state and its slope, the photon being the same, where they would not be regular further on.
+    #[inline(always)]
+    fn settle(&self, _y: &mut [S; D], _slope: &mut [S; D]) {}
     /// Negative once the photon has left the chart's reach.
-    fn reach(&self, y: &[f64; D]) -> f64;
+    fn reach(&self, y: &[S; D]) -> S;
     /// 1/radius.
-    fn inverse_radius(&self, y: &[f64; D]) -> f64;
+    fn inverse_radius(&self, y: &[S; D]) -> S;
     /// A step over which a free photon turns by at most `angle` as seen from the origin.
-    fn step_for(&self, y: &[f64; D], angle: f64) -> f64;
+    fn step_for(&self, y: &[S; D], angle: f64) -> S;
+
+    /// A step that ends about where the chart's equations do, if they do.
+    #[inline(always)]
+    fn way_out(&self, y: &[S; D], _slope: &[S; D]) -> S {
+        y[0].constant(f64::INFINITY)
+    }
+
+    /// The place of a state, or its slope.
+    #[inline(always)]
+    fn place(y: &[S; D]) -> Vec3<S> {
+        [y[Self::PLACE], y[Self::PLACE + 1], y[Self::PLACE + 2]]
+    }
 }
 
-impl<M: Metric, const D: usize> Chart<D> for InvertedFlow<M, f64> {
+impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
     const PLACE: usize = 1;
 
-    fn energy(&self) -> f64 {
+    #[inline(always)]
+    fn energy(&self) -> S {
         self.energy
     }
-    fn start(&self, ray: &Inverted<f64>) -> [f64; D] {
+    #[inline(always)]
+    fn start(&self, ray: &Inverted<S>) -> [S; D] {
         pack(ray)
     }
-    fn state(&self, y: &[f64; D]) -> Inverted<f64> {
+    #[inline(always)]
+    fn state(&self, y: &[S; D]) -> Inverted<S> {
         unpack(y)
     }
-    fn virial(&self, y: &[f64; D]) -> f64 {
-        if D == TIMED { y[8] - if y[9] == 0.0 { 0.0 } else { y[9] * y[0].ln() } } else { 0.0 }
-    }
-    fn settle(&self, y: &mut [f64; D]) -> bool {
-        let due = D == TIMED && y[9] == 0.0 && y[0] > 0.0 && y[4] > 0.0 && self.metric.horizon() > 0.0;
-        if due {
-            y[9] = 4.0 * self.energy;
-            y[8] += y[9] * y[0].ln();
+    #[inline(always)]
+    fn virial(&self, y: &[S; D]) -> S {
+        let zero = y[0].constant(0.0);
+        if D != TIMED {
+            return zero;
         }
-        due
+        let settled = zero.less(y[9].abs());
+        y[8] - S::select(settled, y[9] * S::select(settled, y[0], y[0].constant(1.0)).ln(), zero)
     }
-    fn reach(&self, y: &[f64; D]) -> f64 {
+    /// κ = 4E once the photon is on its way out: T + κ ln w replaces T, and κ w′/w joins its slope.
+    #[inline(always)]
+    fn settle(&self, y: &mut [S; D], slope: &mut [S; D]) {
+        if D != TIMED || self.metric.horizon() == 0.0 {
+            return;
+        }
+        let (zero, one) = (y[0].constant(0.0), y[0].constant(1.0));
+        let outwards = S::select(zero.less(y[9].abs()), zero, y[0].min(y[4]));
+        let due = zero.less(outwards);
+        if S::any(due) {
+            let kappa = S::select(due, self.energy * 4.0, zero);
+            let w = S::select(due, y[0], one);
+            y[9] += kappa;
+            y[8] += kappa * w.ln();
+            slope[8] += kappa * (slope[0] / w);
+        }
+    }
+    #[inline(always)]
+    fn reach(&self, y: &[S; D]) -> S {
         y[0]
     }
-    fn inverse_radius(&self, y: &[f64; D]) -> f64 {
+    #[inline(always)]
+    fn inverse_radius(&self, y: &[S; D]) -> S {
         self.metric.inverse_radius(y[0], &[y[1], y[2], y[3]])
     }
-    fn step_for(&self, y: &[f64; D], angle: f64) -> f64 {
+    #[inline(always)]
+    fn step_for(&self, y: &[S; D], angle: f64) -> S {
         let j = [y[5], y[6], y[7]];
-        angle / (dot(&j, &j).sqrt() + self.energy.abs() + y[4].abs() * y[0])
+        y[0].constant(angle) / (dot(&j, &j).sqrt() + self.energy.abs() + y[4].abs() * y[0])
+    }
+    /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it.
+    #[inline(always)]
+    fn way_out(&self, y: &[S; D], slope: &[S; D]) -> S {
+        let never = y[0].constant(f64::INFINITY);
+        if M::PASSES_INFINITY {
+            return never;
+        }
+        let j = [y[5], y[6], y[7]];
+        let approach = -slope[0];
+        let turn = dot(&j, &j) * (y[0] / approach).squared() * 0.5 + y[0] * 2.0 + 1.0;
+        let outwards = y[0].constant(0.0).less(approach);
+        S::select(outwards, (y[0].max(y[0] * 0.0) + 1e-4) / (approach * turn), never)
     }
 }
 
@@ -85,7 +131,7 @@ impl<M: Metric, const D: usize> Flow<f64, D> for BoundedAffine<M> {
     }
 }
 
-impl<M: Metric, const D: usize> Chart<D> for BoundedAffine<M> {
+impl<M: Metric, const D: usize> Chart<f64, D> for BoundedAffine<M> {
     const PLACE: usize = 0;
 
     fn energy(&self) -> f64 {

@@ -34,7 +34,9 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
     #[inline(always)]
     pub(super) fn add_bubbles<const N: usize>(&mut self, combinations: [[S; D]; N], h: S) {
         for (n, combination) in combinations.iter().enumerate() {
-            self.terms[3 + n] = combination.map(|c| c * h);
+            for i in 0..D {
+                self.terms[3 + n][i] = combination[i] * h;
+            }
         }
         self.used = 3 + N;
     }
@@ -53,7 +55,90 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
     /// The whole state at θ.
     #[inline(always)]
     pub fn at(&self, theta: S) -> [S; D] {
-        std::array::from_fn(|i| self.component(i, theta))
+        let mut y = self.start;
+        for i in 0..D {
+            y[i] = self.component(i, theta);
+        }
+        y
+    }
+
+    /// The sum of the first components, each times its weight.
+    #[inline(always)]
+    pub(super) fn weighted<const N: usize>(&self, weights: &[S; N]) -> Dense<S, 1> {
+        let start = [weighted_sum(&self.start, weights)];
+        let mut terms = [start; 7];
+        for n in 0..self.used {
+            terms[n] = [weighted_sum(&self.terms[n], weights)];
+        }
+        Dense { start, terms, used: self.used }
+    }
+
+    /// That of one lane.
+    pub(super) fn lane(&self, lane: usize) -> Dense<f64, D> {
+        let of = |y: &[S; D]| y.map(|c| c.lane(lane));
+        Dense { start: of(&self.start), terms: self.terms.each_ref().map(of), used: self.used }
+    }
+}
+
+#[inline(always)]
+fn weighted_sum<S: Scalar, const D: usize, const N: usize>(y: &[S; D], weights: &[S; N]) -> S {
+    let mut sum = y[0] * weights[0];
+    for i in 1..N {
+        sum = y[i].mul_add(weights[i], sum);
+    }
+    sum
+}
+
+impl<S: Scalar> Dense<S, 1> {
+    /// The value at θ and dy/dθ.
+    #[inline(always)]
+    fn tangent(&self, theta: S) -> [S; 2] {
+        let other = -theta + 1.0;
+        let mut sum = theta.constant(0.0);
+        let mut slope = sum;
+        for n in (0..self.used).rev() {
+            let inner = sum + self.terms[n][0];
+            if n % 2 == 0 {
+                slope = slope.mul_add(theta, inner);
+                sum = inner * theta;
+            } else {
+                slope = slope.mul_add(other, -inner);
+                sum = inner * other;
+            }
+        }
+        [self.start[0] + sum, slope]
+    }
+
+    /// The θ in [0, 1] at which the polynomial changes sign, lane by lane, to the last bits of θ: Newton's method
+    /// within a bracket, which is halved where a step would leave it. Where the signs at the ends are alike or one
+    /// is zero, the result means nothing. A lane that has converged stays as it is whatever the others need.
+    #[inline(always)]
+    pub(super) fn zero(&self) -> S {
+        let start = self.start[0];
+        let (zero, one) = (start.constant(0.0), start.constant(1.0));
+        let end = self.component(0, one);
+        // Signs are turned so that the polynomial falls through zero.
+        let sign = S::select(start.less(zero), -one, one);
+        let (mut low, mut high) = (zero, one);
+        let mut theta = start / (start - end);
+        let mut busy = one;
+        for _ in 0..60 {
+            let [value, slope] = self.tangent(theta);
+            let before = zero.less(value * sign);
+            low = S::select(before, theta, low);
+            high = S::select(before, high, theta);
+            let newton = theta - value / slope;
+            let outside = S::select(newton.less(low), one, S::select(high.less(newton), one, zero));
+            let next = S::select(zero.less(outside), (low + high) * 0.5, newton);
+            let moved = (next - theta).abs();
+            theta = S::select(zero.less(busy), next, theta);
+            // A step this small leaves the square of it as an error.
+            busy = S::select(moved.constant(1e-8).less(moved), busy, zero);
+            if !S::any(zero.less(busy)) {
+                break;
+            }
+        }
+        theta
     }
 }
 

@@ -1,11 +1,13 @@
 //! Rays by numerical integration of Hamilton's equations, in any metric.
 
 use super::chart::{BoundedAffine, Chart};
+use super::convoy::Task;
 use super::inverted::{InvertedFlow, PLAIN, TIMED, pack};
 use super::log::{Log, Origin};
 use super::method::{Dop853, Method, Rk4, Tsit5};
 use super::walk::{Bounds, Control, End, Stop, walk};
 use super::{AffineFlow, Fate, Path, Query, Ray, Side, Tracer};
+use crate::lanes::Level;
 use crate::metric::{Inverted, Metric};
 use crate::tensor::dot;
 
@@ -65,18 +67,25 @@ pub struct Integrator<M> {
     /// The spacetime as it is, for cameras inside the horizon.
     ingoing: M,
     /// The spacetime reversed in time, for all others.
-    reversed: M,
-    scheme: Scheme,
+    pub(super) reversed: M,
+    pub(super) scheme: Scheme,
     max_steps: usize,
+    level: Level,
 }
 
 impl<M: Metric> Integrator<M> {
     /// A tracer in `metric`, giving up on a ray after `max_steps` steps.
     pub fn new(metric: M, scheme: Scheme, max_steps: usize) -> Self {
-        Self { ingoing: metric, reversed: metric.reversed(), scheme, max_steps }
+        Self { ingoing: metric, reversed: metric.reversed(), scheme, max_steps, level: Level::best() }
     }
 
-    fn control(&self) -> Control {
+    /// The same with these vector instructions, of which `trace_all` makes use, instead of the best that the
+    /// processor has.
+    pub fn with_level(self, level: Level) -> Self {
+        Self { level, ..self }
+    }
+
+    pub(super) fn control(&self) -> Control {
         let (tolerance, step) = match self.scheme {
             Scheme::Rk4 { step } => (f64::NAN, step),
             Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => (tolerance, f64::NAN),
@@ -162,7 +171,7 @@ impl<M: Metric> Integrator<M> {
     ) {
         let flow = InvertedFlow { metric: self.reversed, energy: ray.energy };
         let y = pack::<f64, D>(&ray.start);
-        let mut log = Log::new(&flow, self.reversed, query, Origin::of(&self.reversed, ray), path);
+        let mut log = Log::new(&flow, self.reversed, query, Origin::of(&self.reversed, ray, query), path);
         let end = log.walk::<R, STAGES>(y, &self.bounds(query), &self.control());
         self.conclude(ray, &flow, &end, ray.azimuth + end.swept, path);
     }
@@ -177,7 +186,7 @@ impl<M: Metric> Integrator<M> {
         let (metric, energy) = (self.reversed, ray.energy);
         let limit = 2.0 * ray.start.w.recip().max(50.0);
         let near = BoundedAffine { flow: AffineFlow { metric, energy }, limit };
-        let origin = Origin::of(&metric, ray);
+        let origin = Origin::of(&metric, ray, query);
         let mut log = Log::new(&near, metric, query, origin, path);
         let y: [f64; A] = near.start(&ray.start);
         let end = log.walk::<Rk4, 4>(y, &self.bounds(query), &self.control());
@@ -199,7 +208,7 @@ impl<M: Metric> Integrator<M> {
     }
 
     /// Fate, direction and error from the end of the last walk.
-    fn conclude<C: Chart<D>, const D: usize>(
+    pub(super) fn conclude<C: Chart<f64, D>, const D: usize>(
         &self,
         ray: &Ray,
         chart: &C,
@@ -241,6 +250,40 @@ impl<M: Metric> Tracer for Integrator<M> {
                 }
             }
             Side::Ingoing => self.rise(ray, query, path),
+        }
+    }
+
+    /// On lanes, but for rays of constant steps, those whose points are wanted, and those of cameras inside the
+    /// horizon.
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        let constant = matches!(self.scheme, Scheme::Rk4 { .. });
+        let mut rest = paths;
+        for some in rays.chunk_by(|a, b| a.side == b.side) {
+            let (now, later) = rest.split_at_mut(some.len());
+            rest = later;
+            if constant || query.points > 0 || self.max_steps == 0 || some[0].side == Side::Ingoing {
+                for (ray, path) in some.iter().zip(now) {
+                    self.trace(ray, query, path);
+                }
+            } else {
+                self.trace_abreast(some, query, now);
+            }
+        }
+    }
+}
+
+impl<M: Metric> Integrator<M> {
+    /// Rays of [`Side::Reversed`] on lanes.
+    fn trace_abreast(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        for path in &mut *paths {
+            path.clear();
+        }
+        let corrections = vec![0.0; rays.len()];
+        self.level.run(Task { integrator: self, rays, query, paths: &mut *paths, corrections });
+        if query.windings {
+            for (ray, path) in rays.iter().zip(paths) {
+                path.windings = self.reversed.windings(ray.energy, &ray.start);
+            }
         }
     }
 }

@@ -12,7 +12,7 @@
 use super::flow::Flow;
 use crate::metric::{Inverted, Metric};
 use crate::scalar::Scalar;
-use crate::tensor::dot;
+use crate::tensor::{dot, each};
 
 /// Photons of one energy in the inverted chart: the state is (w, n, q, J), and if `D` is 10
 /// T + κ ln w and κ besides.
@@ -40,12 +40,15 @@ pub fn unpack<S: Scalar, const D: usize>(y: &[S; D]) -> Inverted<S> {
 pub fn pack<S: Scalar, const D: usize>(state: &Inverted<S>) -> [S; D] {
     let Inverted { w, n, q, j } = *state;
     let parts = [w, n[0], n[1], n[2], q, j[0], j[1], j[2]];
-    std::array::from_fn(|i| if i < PLAIN { parts[i] } else { w.constant(0.0) })
+    each(
+        #[inline(always)]
+        |i| if i < PLAIN { parts[i] } else { w.constant(0.0) },
+    )
 }
 
-impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
+impl<M: Metric, S: Scalar> InvertedFlow<M, S> {
     #[inline(always)]
-    fn derivative(&self, y: &[S; D]) -> [S; D] {
+    fn slope<const D: usize>(&self, y: &[S; D]) -> [S; D] {
         let state = unpack(y);
         let rate = self.metric.inverted_rate(self.energy, &state);
         let mut slope = pack(&rate);
@@ -60,6 +63,20 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
         }
         slope
     }
+}
+
+impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
+    #[inline(always)]
+    fn derivative(&self, y: &[S; D]) -> [S; D] {
+        if M::PASSES_INFINITY {
+            return self.slope(y);
+        }
+        // Equations by dual numbers are long, and a step has a dozen of them.
+        y[0].outline(
+            #[inline(always)]
+            || self.slope(y),
+        )
+    }
 
     /// n counts by itself; w against 1/b, the inverse distance of closest approach in flat
     /// space, and itself; q against the energy; J against its own length.
@@ -73,6 +90,9 @@ impl<M: Metric, S: Scalar, const D: usize> Flow<S, D> for InvertedFlow<M, S> {
         let of_q = (q.abs() + energy).recip();
         let one = w.constant(1.0);
         let scales = [of_w, one, one, one, of_q, inverse_whole, inverse_whole, inverse_whole];
-        std::array::from_fn(|i| if i < PLAIN { scales[i] } else { w.constant(0.0) })
+        each(
+            #[inline(always)]
+            |i| if i < PLAIN { scales[i] } else { w.constant(0.0) },
+        )
     }
 }

@@ -18,10 +18,13 @@ pub struct Origin {
 }
 
 impl Origin {
-    pub fn of<M: Metric>(metric: &M, ray: &Ray) -> Self {
+    /// Without time there is none to count.
+    pub fn of<M: Metric>(metric: &M, ray: &Ray, query: &Query) -> Self {
         let Inverted { w, n, q, .. } = ray.start;
         let massive = metric.horizon() > 0.0;
-        if w > 0.0 {
+        if !query.elapsed && query.points == 0 {
+            Self { azimuth: ray.azimuth, radial: f64::NAN, offset: f64::NAN }
+        } else if w > 0.0 {
             let r = 1.0 / metric.inverse_radius(w, &n);
             Self { azimuth: ray.azimuth, radial: q / w, offset: metric.time_offset(r) }
         } else {
@@ -56,7 +59,7 @@ pub struct Log<'a, C, M, const D: usize> {
     segments: Vec<Segment<D>>,
 }
 
-impl<'a, C: Chart<D>, M: Metric, const D: usize> Log<'a, C, M, D> {
+impl<'a, C: Chart<f64, D>, M: Metric, const D: usize> Log<'a, C, M, D> {
     pub fn new(chart: &'a C, metric: M, query: &'a Query, origin: Origin, path: &'a mut Path) -> Self {
         Self { chart, metric, query, origin, path, segments: Vec::new() }
     }
@@ -112,7 +115,7 @@ impl<'a, C: Chart<D>, M: Metric, const D: usize> Log<'a, C, M, D> {
     }
 }
 
-impl<C: Chart<D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D> {
+impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D> {
     const WANTS_SEGMENTS: bool = false;
 
     fn crossing(&mut self, y: &[f64; D], swept: f64) {
@@ -140,7 +143,7 @@ impl<C: Chart<D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D> {
 /// A log that keeps every step too.
 struct Recorder<'a, 'b, C, M, const D: usize>(&'a mut Log<'b, C, M, D>);
 
-impl<C: Chart<D>, M: Metric, const D: usize> Visitor<D> for Recorder<'_, '_, C, M, D> {
+impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Recorder<'_, '_, C, M, D> {
     const WANTS_SEGMENTS: bool = true;
 
     fn crossing(&mut self, y: &[f64; D], swept: f64) {

@@ -2,6 +2,7 @@
 
 mod affine;
 mod chart;
+mod convoy;
 mod dense;
 mod flow;
 mod integrator;

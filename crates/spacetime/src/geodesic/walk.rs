@@ -4,6 +4,7 @@ use super::chart::Chart;
 use super::dense::{Dense, root};
 use super::method::Method;
 use super::winding;
+use crate::scalar::Scalar;
 use crate::tensor::{Vec3, dot};
 
 /// How steps are chosen.
@@ -77,14 +78,14 @@ pub fn walk<C, M, V, const D: usize, const STAGES: usize>(
     visitor: &mut V,
 ) -> End<D>
 where
-    C: Chart<D>,
+    C: Chart<f64, D>,
     M: Method<STAGES>,
     V: Visitor<D>,
 {
     let adaptive = M::ERROR_ORDER > 0.0;
-    let height = |y: &[f64; D]| dot(&place::<C, D>(y), &bounds.plane);
-    chart.settle(&mut y);
+    let height = |y: &[f64; D]| dot(&C::place(y), &bounds.plane);
     let mut slope = chart.derivative(&y);
+    chart.settle(&mut y, &mut slope);
     let mut h = if adaptive { chart.step_for(&y, 0.3) } else { control.step };
     let sense = if chart.state(&y).j[2] < 0.0 { -1.0 } else { 1.0 };
     // A photon that starts in the plane has not crossed it.
@@ -96,9 +97,10 @@ where
         }
         steps += 1;
         if adaptive {
-            h = h.min(chart.step_for(&y, control.max_turn));
+            h = h.min(chart.step_for(&y, control.max_turn)).min(chart.way_out(&y, &slope));
         }
-        let step = M::step(chart, &y, &slope, h);
+        let mut stages = [slope; STAGES];
+        let step = M::step(chart, &y, &mut stages, h);
         let finite = step.error.is_finite() && step.end.iter().take(D & !1).all(|c| c.is_finite());
         let ratio = step.error / control.tolerance;
         if !finite || (adaptive && ratio > 1.0) {
@@ -121,13 +123,13 @@ where
         let leaves = reach < 0.0;
         let falls = bounds.inverse_exit.is_none() && depth > bounds.inverse_horizon;
         let rises = bounds.inverse_exit.filter(|exit| depth < *exit);
-        let heading = winding::heading(place::<C, D>(&y), place::<C, D>(&slope));
-        let turn = winding::turn(&heading, &place::<C, D>(&step.end));
+        let heading = winding::heading(C::place(&y), C::place(&slope));
+        let turn = winding::turn(&heading, &C::place(&step.end));
         let near_axis = turn.abs() > winding::DOUBTFUL;
         let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
         let mut stop = if falls { Some(Stop::Fell) } else { None };
         if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis || rises.is_some() {
-            let dense = M::dense(chart, &y, &step, &end_slope, h);
+            let dense = M::dense(chart, &y, &stages, &step.end, &end_slope, h);
             let mut until = 1.0;
             if let Some(exit) = rises {
                 // A step may reach far beyond.
@@ -142,21 +144,14 @@ where
                 until = root(above_horizon, above_horizon(0.0), bounds.inverse_horizon - depth);
             }
             let level = |t: f64| height(&dense.at(t));
-            let mut meet = |theta: f64| {
+            let meet = |theta: f64| {
                 if theta < until {
                     let sweep = winding::sweep(&dense, C::PLACE, &heading, theta, sense);
                     visitor.crossing(&dense.at(theta), swept + sweep);
                 }
             };
-            if crosses {
-                // The plane where the step began counts as left behind, not as met.
-                let start = height(&y);
-                meet(root(level, if start == 0.0 { above * 1e-300 } else { start }, below));
-            } else if grazes && let Some(middle) = beyond_plane(&level, above) {
-                let other = level(middle);
-                meet(root(|t| level(t * middle), above, other) * middle);
-                let rest = 1.0 - middle;
-                meet(middle + root(|t| level(middle + t * rest), other, below) * rest);
+            if crosses || grazes {
+                meetings(level, [height(&y), above, below]).into_iter().flatten().for_each(meet);
             }
             if V::WANTS_SEGMENTS {
                 visitor.segment(&dense, sigma, h, until);
@@ -183,20 +178,28 @@ where
             refused = false;
         }
         (y, slope, swept) = (next.y, end_slope, next.swept);
-        if chart.settle(&mut y) {
-            slope = chart.derivative(&y);
-        }
+        chart.settle(&mut y, &mut slope);
     }
 }
 
+/// The factor by which a step may change for its error to be 0.9^order of the tolerance.
 #[inline(always)]
-fn place<C: Chart<D>, const D: usize>(y: &[f64; D]) -> Vec3<f64> {
-    [y[C::PLACE], y[C::PLACE + 1], y[C::PLACE + 2]]
+pub fn growth<S: Scalar>(ratio: S, order: f64) -> S {
+    (ratio.max(ratio.constant(1e-10)).ln() * (-1.0 / order)).exp() * 0.9
 }
 
-/// The factor by which a step may change for its error to be 0.9^order of the tolerance.
-fn growth(ratio: f64, order: f64) -> f64 {
-    0.9 * ratio.max(1e-10).powf(-1.0 / order)
+/// The θ at which the plane is crossed in a step: one if it begins and ends on different sides, two or none if it
+/// dips through. `start` and `below` are the heights at its ends, `above` that which counts for the start.
+pub fn meetings(level: impl Fn(f64) -> f64, [start, above, below]: [f64; 3]) -> [Option<f64>; 2] {
+    if (above > 0.0) != (below > 0.0) {
+        // The plane where the step began counts as left behind, not as met.
+        return [Some(root(level, if start == 0.0 { above * 1e-300 } else { start }, below)), None];
+    }
+    let Some(middle) = beyond_plane(&level, above) else { return [None; 2] };
+    let other = level(middle);
+    let first = root(|t| level(t * middle), above, other) * middle;
+    let rest = 1.0 - middle;
+    [Some(first), Some(middle + root(|t| level(middle + t * rest), other, below) * rest)]
 }
 
 /// A θ at which a height that dips towards zero within the step has passed it.

@@ -1,13 +1,14 @@
 //! The azimuth of a ray, unwrapped.
 
 use super::dense::Dense;
-use crate::tensor::Vec3;
+use crate::scalar::Scalar;
+use crate::tensor::{Vec3, each};
 use std::f64::consts::{PI, TAU};
 
 /// The angle in (−π, π] by which the horizontal part of a turns into that of b; 0 if one of
 /// them vanishes.
 #[inline(always)]
-pub fn turn(a: &Vec3<f64>, b: &Vec3<f64>) -> f64 {
+pub fn turn<S: Scalar>(a: &Vec3<S>, b: &Vec3<S>) -> S {
     // + 0.0 makes −0.0 positive, whose angle would be π.
     (a[0] * b[1] - a[1] * b[0]).atan2(a[0] * b[0] + a[1] * b[1] + 0.0)
 }
@@ -28,19 +29,30 @@ pub fn sweep<const D: usize>(
     to: f64,
     sense: f64,
 ) -> f64 {
-    let place = |theta| std::array::from_fn(|i| dense.component(first + i, theta));
+    let place = |theta| {
+        each(
+            #[inline(always)]
+            |i| dense.component(first + i, theta),
+        )
+    };
     refine(&place, (0.0, *start), (to, place(to)), sense, 40)
 }
 
 /// The direction whose azimuth a ray has at `place`: on the axis, that in which it leaves.
 #[inline(always)]
-pub fn heading(place: Vec3<f64>, slope: Vec3<f64>) -> Vec3<f64> {
-    if place[0] == 0.0 && place[1] == 0.0 { slope } else { place }
+pub fn heading<S: Scalar>(place: Vec3<S>, slope: Vec3<S>) -> Vec3<S> {
+    let off_axis = place[0].constant(0.0).less(place[0].abs() + place[1].abs());
+    let mut heading = slope;
+    for i in 0..3 {
+        heading[i] = S::select(off_axis, place[i], slope[i]);
+    }
+    heading
 }
 
 /// Within a milliradian of the axis, where only the angular momentum turns a ray.
-fn hugs_axis(place: &Vec3<f64>) -> bool {
-    place[0].hypot(place[1]) < 1e-3 * place[2].abs()
+#[inline(always)]
+pub fn hugs_axis<S: Scalar>(place: &Vec3<S>) -> S::Mask {
+    place[0].mul_add(place[0], place[1] * place[1]).less(place[2] * place[2] * 1e-6)
 }
 
 fn refine(

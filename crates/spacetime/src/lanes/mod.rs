@@ -33,6 +33,18 @@ impl<L: Simd> Lanes<L> {
         Self(values.simd_into(simd))
     }
 
+    /// Which lanes of a mask are true, the first in the lowest bit.
+    #[inline(always)]
+    pub(crate) fn mask_bits(mask: mask64x8<L>) -> u64 {
+        mask.to_bitmask()
+    }
+
+    /// The lanes whose bits are set.
+    #[inline(always)]
+    pub(crate) fn bits_mask(simd: L, bits: u64) -> mask64x8<L> {
+        mask64x8::from_bitmask(simd, bits)
+    }
+
     /// The eight numbers.
     #[inline(always)]
     pub fn to_array(self) -> [f64; 8] {

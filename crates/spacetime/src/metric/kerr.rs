@@ -9,7 +9,8 @@
 use super::{Inverted, Metric, Rate};
 use crate::kerr::horizons;
 use crate::scalar::Scalar;
-use crate::tensor::{Tensor, Vec3, cross, dot};
+use crate::tensor::{Tensor, Vec3, cross, dot, each};
+use std::ops::{Add, Mul, Sub};
 
 /// A hole of mass 1 and spin s in [−1, 1] about +z.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,13 +33,31 @@ impl Kerr {
 /// w r around a hole of spin s, which is 1 at infinity.
 #[inline(always)]
 pub(crate) fn scaled_radius<S: Scalar>(spin: S, state: &Inverted<S>) -> S {
-    Field::at(&state.n, state.w * spin).r
+    spheroid(&state.n, state.w * spin)[1].sqrt()
 }
 
 /// The spatial part of l around a hole of spin s.
 #[inline(always)]
 pub(crate) fn principal_null<S: Scalar>(spin: S, state: &Inverted<S>) -> Vec3<S> {
     Field::at(&state.n, state.w * spin).l
+}
+
+/// The spin at a place: a constant, or one that scales with the distance.
+trait Spin: Copy + Mul<Output = Self> {}
+impl<P: Copy + Mul<Output = P>> Spin for P {}
+
+/// What arithmetic there has to be with it.
+trait Times<P>: Add<P, Output = Self> + Sub<P, Output = Self> + Mul<P, Output = Self> + Sized {}
+impl<P, S: Add<P, Output = S> + Sub<P, Output = S> + Mul<P, Output = S>> Times<P> for S {}
+
+/// Σ/2 and r² at x around a hole of spin s.
+#[inline(always)]
+fn spheroid<S: Scalar + Times<P>, P: Spin>(x: &Vec3<S>, spin: P) -> [S; 2] {
+    let [x, y, z] = *x;
+    let (s2, z2) = (spin * spin, z * z);
+    let half = (x.mul_add(x, y.mul_add(y, z2)) - s2) * 0.5;
+    let half_sigma = half.mul_add(half, z2 * s2).sqrt();
+    [half_sigma, half + half_sigma]
 }
 
 /// The quantities of the metric at a point.
@@ -57,21 +76,25 @@ struct Field<S> {
 
 impl<S: Scalar> Field<S> {
     #[inline(always)]
-    fn at(x: &Vec3<S>, spin: S) -> Self {
+    fn at<P: Spin>(x: &Vec3<S>, spin: P) -> Self
+    where
+        S: Times<P>,
+    {
+        let [half_sigma, r2] = spheroid(x, spin);
         let [x, y, z] = *x;
-        let (s2, z2) = (spin * spin, z * z);
-        let half = (x.mul_add(x, y.mul_add(y, z2)) - s2) * 0.5;
-        let half_sigma = half.mul_add(half, s2 * z2).sqrt();
-        let r2 = half + half_sigma;
         let r = r2.sqrt();
-        let inverse_r = r.recip();
-        let weight = (r2 + s2).recip();
+        let wide = r2 + spin * spin;
+        // One division for three: they cost more than all else here.
+        let both = half_sigma * r;
+        let inverse = (both * wide).recip();
+        let weight = inverse * both;
+        let inverse_r = inverse * (half_sigma * wide);
         Self {
             r,
             inverse_r,
-            inverse_sigma: half_sigma.recip() * 0.5,
+            inverse_sigma: inverse * (r * wide) * 0.5,
             weight,
-            l: [r.mul_add(x, spin * y) * weight, r.mul_add(y, -(spin * x)) * weight, z * inverse_r],
+            l: [r.mul_add(x, y * spin) * weight, r.mul_add(y, -(x * spin)) * weight, z * inverse_r],
         }
     }
 
@@ -79,15 +102,16 @@ impl<S: Scalar> Field<S> {
     #[inline(always)]
     fn pull(&self, x: &Vec3<S>, p: &Vec3<S>, energy: S, spin: S) -> Pull<S> {
         let a = x[0].mul_add(p[0], x[1] * p[1]);
-        let c = x[1] * p[0] - x[0] * p[1];
+        let c = x[1].mul_add(p[0], -(x[0] * p[1]));
         let g = self.weight * self.r.mul_add(a, spin * c);
-        let rise = self.inverse_r * p[2];
-        let l = g + x[2] * rise + energy;
-        // ∂(l·p)/∂r at fixed x: w(A − 2rg) − z p_z/r².
-        let slope = self.weight * (a - self.r * g * 2.0) - x[2] * rise * self.inverse_r;
+        let rise = x[2] * (self.inverse_r * p[2]);
+        let l = g + rise + energy;
+        // −∂(l·p)/∂r at fixed x: w(2rg − A) + z p_z/r².
+        let inwards = (self.r * 2.0).mul_add(g, -a);
+        let fall = self.weight.mul_add(inwards, rise * self.inverse_r);
         // K/f = ½ℓ²(3/r − 4r/Σ) + ℓ N_r.
-        let explicit = self.inverse_r * 3.0 - self.r * self.inverse_sigma * 4.0;
-        Pull { l, along_r: l * (l * explicit * 0.5 + slope) }
+        let explicit = (self.r * -2.0).mul_add(self.inverse_sigma, self.inverse_r * 1.5);
+        Pull { l, along_r: l * l.mul_add(explicit, -fall) }
     }
 }
 
@@ -97,6 +121,8 @@ struct Pull<S> {
 }
 
 impl Metric for Kerr {
+    const PASSES_INFINITY: bool = true;
+
     #[inline(always)]
     fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
         kerr_schild(self.spin, x, 1.0)
@@ -109,7 +135,7 @@ impl Metric for Kerr {
 
     #[inline(always)]
     fn radius<S: Scalar>(&self, x: &Vec3<S>) -> S {
-        Field::at(x, x[0].constant(self.spin)).r
+        spheroid(x, self.spin)[1].sqrt()
     }
 
     fn horizon(&self) -> f64 {
@@ -131,7 +157,10 @@ impl Metric for Kerr {
         // The explicit z in Σ: −fℓ² s² z/(r² Σ).
         let oblate = drift * l * (s * field.inverse_r).squared() * field.inverse_sigma;
         Rate {
-            velocity: std::array::from_fn(|i| p[i] - drift * field.l[i]),
+            velocity: each(
+                #[inline(always)]
+                |i| p[i] - drift * field.l[i],
+            ),
             force: [
                 flat * x[0] + turn * (field.r * p[0] - s * p[1]),
                 flat * x[1] + turn * (field.r * p[1] + s * p[0]),
@@ -156,30 +185,40 @@ impl Metric for Kerr {
         let s = w * self.spin;
         let field = Field::at(&n, s);
         let k = cross(&j, &n);
-        let p: Vec3<S> = std::array::from_fn(|i| q.mul_add(n[i], w * k[i]));
+        let p: Vec3<S> = each(
+            #[inline(always)]
+            |i| q.mul_add(n[i], w * k[i]),
+        );
         let Pull { l, along_r } = field.pull(&n, &p, energy, s);
         let f = field.r * field.inverse_sigma * 2.0;
         let drift = f * l;
         let radial = f * along_r;
-        let lengthening = drift * dot(&n, &field.l) * (-(dot(&n, &n) * 2.0) + 3.0);
-        let turn: Vec3<S> = std::array::from_fn(|i| k[i] - drift * field.l[i] + n[i] * lengthening);
+        let lengthening = drift * dot(&n, &field.l) * dot(&n, &n).mul_add(w.constant(-2.0), w.constant(3.0));
+        let turn: Vec3<S> = each(
+            #[inline(always)]
+            |i| n[i].mul_add(lengthening, (-drift).mul_add(field.l[i], k[i])),
+        );
         let height = s * n[2] * field.inverse_r;
         let flattening = height.squared();
         let oblate = drift * l * field.inverse_sigma;
-        let pull = radial * field.r * field.inverse_sigma * (flattening + 1.0) + drift * (l - energy)
-            - oblate * flattening;
+        let inwards = radial * field.inverse_sigma;
+        let level = (inwards * field.r).mul_add(flattening + 1.0, drift * (l - energy));
+        let pull = flattening.mul_add(-oblate, level);
         // Frame dragging turns J about z; oblateness tilts it.
         let whirl = drift * field.weight;
         let precession = whirl * s;
         let tilt = s * self.spin;
         let mixed = tilt * whirl * field.inverse_r;
-        let bulge = tilt * n[2] * field.inverse_r * (radial * field.inverse_sigma - oblate * field.inverse_r);
-        let torque = |i: usize| mixed * (p[2] * n[i] + n[2] * p[i]) + bulge * n[i];
+        let bulge = tilt * n[2] * field.inverse_r * oblate.mul_add(-field.inverse_r, inwards);
+        let torque: [S; 2] = each(
+            #[inline(always)]
+            |i| mixed.mul_add(p[2].mul_add(n[i], n[2] * p[i]), bulge * n[i]),
+        );
         Inverted {
-            w: w * lengthening - q,
+            w: w.mul_add(lengthening, -q),
             n: turn,
-            q: w * dot(&turn, &k) + pull,
-            j: [torque(1) - precession * j[1], precession * j[0] - torque(0), w.constant(0.0)],
+            q: w.mul_add(dot(&turn, &k), pull),
+            j: [precession.mul_add(-j[1], torque[1]), precession.mul_add(j[0], -torque[0]), w.constant(0.0)],
         }
     }
 
@@ -238,7 +277,15 @@ impl Metric for Kerr {
         let tilt = (w * s * field.inverse_r).powi(2) * n[2];
         let slope = [n[0], n[1], n[2] + tilt].map(|c| c * field.r * field.inverse_sigma * kick);
         let torque = cross(&n, &slope);
-        Inverted { w, n, q: q + dot(&n, &slope), j: std::array::from_fn(|i| j[i] + torque[i] / w) }
+        Inverted {
+            w,
+            n,
+            q: q + dot(&n, &slope),
+            j: each(
+                #[inline(always)]
+                |i| j[i] + torque[i] / w,
+            ),
+        }
     }
 
     /// 1/U at the least value of the radial potential U(u) = 1 + Bu² + 2Cu³ − Qu⁴ outside the
@@ -279,26 +326,24 @@ impl Metric for Kerr {
 
     #[inline(always)]
     fn inverse_radius<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
-        w * Field::at(n, w * self.spin).inverse_r
+        w / spheroid(n, w * self.spin)[1].sqrt()
     }
 }
 
 /// η ± f l l, all indices down for +1, all up for −1 (then l^t = −l_t).
 #[inline(always)]
 fn kerr_schild<S: Scalar>(spin: f64, x: &Vec3<S>, sign: f64) -> Tensor<S> {
-    let field = Field::at(x, x[0].constant(spin));
+    let field = Field::at(x, spin);
     let f = field.r * field.inverse_sigma * (2.0 * sign);
-    let l = [f.constant(sign), field.l[0], field.l[1], field.l[2]];
-    std::array::from_fn(|m| {
-        std::array::from_fn(|n| {
-            let flat = if m != n {
-                0.0
-            } else if m == 0 {
-                -1.0
-            } else {
-                1.0
-            };
-            f * l[m] * l[n] + flat
-        })
-    })
+    let [a, b, c] = field.l;
+    let (fa, fb, fc) = (f * a, f * b, f * c);
+    // With l_t = ±1; nothing is multiplied by it, for a dual number would be by its zeros too.
+    let [ta, tb, tc] = [fa * sign, fb * sign, fc * sign];
+    let (ab, ac, bc) = (fa * b, fa * c, fb * c);
+    [
+        [f - 1.0, ta, tb, tc],
+        [ta, fa * a + 1.0, ab, ac],
+        [tb, ab, fb * b + 1.0, bc],
+        [tc, ac, bc, fc * c + 1.0],
+    ]
 }

@@ -9,6 +9,8 @@ use crate::tensor::{Tensor, Vec3, cross, dot};
 pub struct Minkowski;
 
 impl Metric for Minkowski {
+    const PASSES_INFINITY: bool = true;
+
     #[inline(always)]
     fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
         let (zero, one) = (x[0].constant(0.0), x[0].constant(1.0));

@@ -2,7 +2,7 @@
 
 use super::{Inverted, Kerr, Metric, Rate};
 use crate::scalar::Scalar;
-use crate::tensor::{Tensor, Vec3, cross, dot};
+use crate::tensor::{Tensor, Vec3, cross, dot, each};
 
 /// A hole without spin, M = 1: [`Kerr`] at a = 0, with the simpler equations that follow.
 ///
@@ -11,6 +11,8 @@ use crate::tensor::{Tensor, Vec3, cross, dot};
 pub struct Schwarzschild;
 
 impl Metric for Schwarzschild {
+    const PASSES_INFINITY: bool = true;
+
     #[inline(always)]
     fn components<S: Scalar>(&self, x: &Vec3<S>) -> Tensor<S> {
         Kerr::new(0.0).components(x)
@@ -35,14 +37,23 @@ impl Metric for Schwarzschild {
     #[inline(always)]
     fn rate<S: Scalar>(&self, energy: S, x: &Vec3<S>, p: &Vec3<S>) -> Rate<S> {
         let inverse = dot(x, x).sqrt().recip();
-        let n = x.map(|c| c * inverse);
+        let n: Vec3<S> = each(
+            #[inline(always)]
+            |i| x[i] * inverse,
+        );
         let radial = dot(&n, p);
         let l = energy + radial;
         let drift = l * inverse * 2.0;
         let pull = inverse.squared() * l;
         Rate {
-            velocity: std::array::from_fn(|i| p[i] - drift * n[i]),
-            force: std::array::from_fn(|i| pull * ((p[i] - radial * n[i]) * 2.0 - l * n[i])),
+            velocity: each(
+                #[inline(always)]
+                |i| p[i] - drift * n[i],
+            ),
+            force: each(
+                #[inline(always)]
+                |i| pull * ((p[i] - radial * n[i]) * 2.0 - l * n[i]),
+            ),
         }
     }
 

@@ -106,7 +106,8 @@ pub fn travel(photon: Photon, u: f64, mu: f64, inward: bool, mu_sign: f64) -> Tr
     let mut h: f64 = 1e-3;
     for _ in 0..20_000 {
         let k = photon.derivative(&y);
-        let step = <Dop853 as Method<12>>::step(&photon, &y, &k, h);
+        let mut stages = [k; 12];
+        let step = <Dop853 as Method<12>>::step(&photon, &y, &mut stages, h);
         if !(step.error < STEP_ERROR) {
             h *= (0.8 * (step.error / STEP_ERROR).powf(-1.0 / 8.0)).clamp(0.1, 0.9);
             if h < 1e-16 {
@@ -115,19 +116,19 @@ pub fn travel(photon: Photon, u: f64, mu: f64, inward: bool, mu_sign: f64) -> Tr
             continue;
         }
         let end = photon.derivative(&step.end);
-        let dense = <Dop853 as Method<12>>::dense(&photon, &y, &step, &end, h);
+        let dense = <Dop853 as Method<12>>::dense(&photon, &y, &stages, &step.end, &end, h);
         // The dense output is of lower order than the step: find the place by it, then step there.
         let exactly = |i: usize| {
             let share = bisect(|share| dense.component(i, share));
             let mut part = share * h;
-            let mut there = <Dop853 as Method<12>>::step(&photon, &y, &k, part).end;
+            let mut there = <Dop853 as Method<12>>::step(&photon, &y, &mut [k; 12], part).end;
             for _ in 0..3 {
                 let slope = photon.derivative(&there)[i];
                 if slope == 0.0 {
                     break;
                 }
                 part -= there[i] / slope;
-                there = <Dop853 as Method<12>>::step(&photon, &y, &k, part).end;
+                there = <Dop853 as Method<12>>::step(&photon, &y, &mut [k; 12], part).end;
             }
             (part, there)
         };

@@ -1,0 +1,166 @@
+//! Rays on lanes find what rays alone find, whichever are beside them.
+
+mod common;
+
+use common::{Random, distance, unit};
+use kerrscope_spacetime::Level;
+use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
+use kerrscope_spacetime::metric::{Kerr, Metric, Minkowski, Schwarzschild};
+use kerrscope_spacetime::observer::{Motion, Observer, Place, impact_ray};
+use std::f64::consts::PI;
+
+/// Rays of cameras from 1.3 horizon radii to 10³ M, some next to the axis or in the plane, and of screens at
+/// infinity; `spin` is none for flat space.
+fn shots(random: &mut Random, spin: Option<f64>, count: usize) -> Vec<Ray> {
+    let horizon = spin.map_or(1.0, |a| 1.0 + (1.0 - a * a).sqrt());
+    let mut rays = Vec::with_capacity(count);
+    while rays.len() < count {
+        let theta = match rays.len() % 11 {
+            0 => 0.0,
+            1 => 0.5 * PI,
+            2 => 1e-3,
+            _ => random.within(-1.0, 1.0).acos(),
+        };
+        if rays.len() % 3 == 0 {
+            let impact = [random.within(-12.0, 12.0), random.within(-12.0, 12.0)];
+            rays.extend(impact_ray(spin, theta, f64::INFINITY, impact));
+            continue;
+        }
+        let place = Place { r: horizon * random.scale(1.3, 1e3), theta, phi: random.within(-3.0, 3.0) };
+        let motion = if spin.is_some() { Motion::ZeroAngularMomentum } else { Motion::Static };
+        rays.push(Observer::new(spin, place, motion).unwrap().ray(random.direction()));
+    }
+    rays
+}
+
+fn all(tracer: &impl Tracer, rays: &[Ray], query: &Query) -> Vec<Path> {
+    let mut paths = vec![Path::default(); rays.len()];
+    tracer.trace_all(rays, query, &mut paths);
+    paths
+}
+
+/// Every bit, NaN included.
+fn bits(path: &Path) -> String {
+    format!("{path:?}")
+}
+
+/// The largest difference of directions, radii, azimuths and, relative to the largest, times.
+fn difference(one: &Path, other: &Path) -> f64 {
+    let mut worst: f64 = 0.0;
+    if let (Some(a), Some(b)) = (one.direction, other.direction) {
+        worst = worst.max(distance(unit(a), unit(b)));
+        // Turns count too, but next to the axis one way around is as good as the other.
+        let turn = if a[0].sin() < 1e-3 { 0.0 } else { (a[1] - b[1]).abs() * a[0].sin() };
+        worst = worst.max(turn);
+    }
+    for (a, b) in one.crossings.iter().zip(&other.crossings) {
+        worst = worst.max((a.r / b.r - 1.0).abs()).max(distance(a.position, b.position) / b.r);
+        // φ is steep at the horizon, as is the time.
+        worst = worst.max((a.phi - b.phi).abs());
+        let late = (a.elapsed - b.elapsed).abs() / b.elapsed.abs().max(b.r);
+        worst = worst.max(if late.is_nan() { 0.0 } else { late });
+    }
+    worst
+}
+
+/// Both ways, every level, with time and without; for what sensitivity `of` a ray the differences are judged.
+fn agree<M: Metric>(metric: M, rays: &[Ray], of: impl Fn(&Ray) -> f64, noise: f64) {
+    let schemes = [Scheme::Dop853 { tolerance: 1e-9 }, Scheme::Tsit5 { tolerance: 1e-7 }];
+    for scheme in schemes {
+        for query in [
+            Query { max_crossings: 3, ..Query::default() },
+            Query { elapsed: true, plane: [0.6, 0.0, 0.8], ..Query::default() },
+        ] {
+            for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
+                let tracer = Integrator::new(metric, scheme, 10_000).with_level(level);
+                let found = all(&tracer, rays, &query);
+                // Backwards and in small parts: the same bytes.
+                let mut turned: Vec<Ray> = rays.to_vec();
+                turned.reverse();
+                let mut again: Vec<Path> =
+                    turned.chunks(13).flat_map(|some| all(&tracer, some, &query)).collect();
+                again.reverse();
+                let (mut judged, mut single) = (0, Path::default());
+                for ((ray, path), again) in rays.iter().zip(&found).zip(&again) {
+                    assert_eq!(bits(path), bits(again), "the same bits beside other rays");
+                    tracer.trace(ray, &query, &mut single);
+                    let sensitivity = of(ray);
+                    if sensitivity > 1e3 {
+                        continue;
+                    }
+                    judged += 1;
+                    let told = || format!("{level:?} {scheme:?} {ray:?}\n{path:?}\n{single:?}");
+                    assert_eq!(path.fate, single.fate, "{}", told());
+                    assert_eq!(path.crossings.len(), single.crossings.len(), "{}", told());
+                    // A step on the edge of being refused may be taken by one of the two.
+                    let steps = path.steps.abs_diff(single.steps);
+                    assert!(steps <= 2, "{}", told());
+                    let farthest = path.crossings.iter().map(|c| c.r).fold(1.0, f64::max);
+                    let rounding = noise * sensitivity * farthest;
+                    let bound = rounding + if steps == 0 { 0.0 } else { 100.0 * single.error_estimate };
+                    let apart = difference(path, &single);
+                    assert!(apart <= bound, "{apart:e} > {bound:e}: {}", told());
+                }
+                assert!(judged * 10 > rays.len() * 9);
+            }
+        }
+    }
+}
+
+#[test]
+fn kerr() {
+    let mut random = Random::new(11);
+    for spin in [0.3, -0.99] {
+        let rays = shots(&mut random, Some(spin), 330);
+        let of = |ray: &Ray| Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
+        agree(Kerr::new(spin), &rays, of, 1e-9);
+    }
+}
+
+#[test]
+fn schwarzschild() {
+    let rays = shots(&mut Random::new(12), Some(0.0), 330);
+    agree(Schwarzschild, &rays, |ray| Schwarzschild.sensitivity(ray.energy, &ray.start), 1e-9);
+}
+
+#[test]
+fn flat() {
+    agree(Minkowski, &shots(&mut Random::new(13), None, 330), |_| 1.0, 1e-9);
+}
+
+/// Rays that are given up, cannot be followed or go another way leave those beside them alone.
+#[test]
+fn company() {
+    let (spin, query) = (0.9, Query::default());
+    let mut rays = shots(&mut Random::new(15), Some(spin), 40);
+    let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-9 }, 10_000);
+    let good = all(&tracer, &rays, &query);
+    let mut broken = rays[0];
+    broken.start.q = f64::NAN;
+    rays.insert(3, broken);
+    let falling = Place { r: 1.2, theta: 1.0, phi: 0.0 };
+    let inside = Observer::new(Some(spin), falling, Motion::Fall).unwrap().ray([1.0, 0.0, 0.0]);
+    assert_eq!(inside.side, Side::Ingoing);
+    rays.insert(20, inside);
+    let mut mixed = all(&tracer, &rays, &query);
+    let mut single = Path::default();
+    tracer.trace(&inside, &query, &mut single);
+    assert_eq!(bits(&mixed.remove(20)), bits(&single));
+    assert_eq!(mixed.remove(3).fate, Fate::StepLimit);
+    for (mixed, good) in mixed.iter().zip(&good) {
+        assert_eq!(bits(mixed), bits(good));
+    }
+    // The limit of steps holds for each ray by itself.
+    let limit = good.iter().map(|path| path.steps).sum::<usize>() / good.len();
+    let short = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-9 }, limit);
+    rays.remove(20);
+    rays.remove(3);
+    for (short, good) in all(&short, &rays, &query).iter().zip(&good) {
+        if good.steps <= limit {
+            assert_eq!(bits(short), bits(good));
+        } else {
+            assert_eq!((short.fate, short.steps), (Fate::StepLimit, limit));
+        }
+    }
+    assert!(all(&tracer, &[], &query).is_empty());
+}
