@@ -4,7 +4,7 @@ use super::course::SPIN;
 use kerrscope::spacetime::Level;
 use kerrscope::spacetime::closed::ClosedForm;
 use kerrscope::spacetime::geodesic::{Integrator, Scheme, Tracer};
-use kerrscope::spacetime::metric::Kerr;
+use kerrscope::spacetime::metric::{Components, Kerr};
 
 /// The names of engines.
 pub const ENGINES: [&str; 3] = ["closed-form", "integrator", "components"];
@@ -47,13 +47,28 @@ impl Contender {
                 Scheme::Rk4 { .. } => None,
                 Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => Some(tolerance),
             };
-            all.push(Self {
-                engine: ENGINES[1],
-                method,
-                tolerance,
-                level: Level::Baseline,
-                tracer: Box::new(Integrator::new(Kerr::new(SPIN), scheme, MOST_STEPS)),
-            });
+            // Constant steps are not taken on lanes.
+            let slow = tolerance.is_none();
+            for level in levels().filter(|level| !slow || *level == Level::Baseline) {
+                let tracer = Integrator::new(Kerr::new(SPIN), scheme, MOST_STEPS).with_level(level);
+                all.push(Self { engine: ENGINES[1], method, tolerance, level, tracer: Box::new(tracer) });
+            }
+        }
+        for (method, tolerance, scheme) in [
+            ("tsit5", 1e-6, Scheme::Tsit5 { tolerance: 1e-6 }),
+            ("dop853", 1e-6, Scheme::Dop853 { tolerance: 1e-6 }),
+        ] {
+            all.extend(levels().map(|level| {
+                let metric = Components(Kerr::new(SPIN));
+                let tracer = Integrator::new(metric, scheme, MOST_STEPS).with_level(level);
+                Self {
+                    engine: ENGINES[2],
+                    method,
+                    tolerance: Some(tolerance),
+                    level,
+                    tracer: Box::new(tracer),
+                }
+            }));
         }
         all
     }

@@ -20,8 +20,12 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
         (Some(spin), Engine::ClosedForm) => Box::new(ClosedForm::new(spin, NODES, steps).with_level(level)),
         _ => match scene.spacetime {
             Spacetime::Minkowski => Box::new(Straight),
-            Spacetime::Schwarzschild => Box::new(Integrator::new(Schwarzschild, scheme, steps)),
-            Spacetime::Kerr { spin } => Box::new(Integrator::new(Kerr::new(spin), scheme, steps)),
+            Spacetime::Schwarzschild => {
+                Box::new(Integrator::new(Schwarzschild, scheme, steps).with_level(level))
+            }
+            Spacetime::Kerr { spin } => {
+                Box::new(Integrator::new(Kerr::new(spin), scheme, steps).with_level(level))
+            }
         },
     }
 }
