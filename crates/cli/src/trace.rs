@@ -184,7 +184,7 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
     let tracer: Box<dyn Tracer> = match arguments.engine.as_deref() {
         None | Some("auto" | "closed-form") => Box::new(ClosedForm::new(spin, NODES, MAX_STEPS)),
         Some("integrator") => {
-            Box::new(Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, MAX_STEPS))
+            Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, MAX_STEPS).boxed()
         }
         Some(engine) => {
             return Err(Failure::Input(format!(

@@ -28,8 +28,8 @@ const BATCH: usize = 1024;
 fn rays(criterion: &mut Criterion) {
     let kinds = [("distant", [9.0, 14.0]), ("bent", [5.3, 6.5]), ("captured", [0.5, 4.0])];
     let closed = ClosedForm::new(SPIN, NODES, 10_000);
-    let integrator = Integrator::new(Kerr::new(SPIN), Scheme::Dop853 { tolerance: 1e-8 }, 10_000);
-    for (engine, tracer) in [("closed form", &closed as &dyn Tracer), ("integrator", &integrator)] {
+    let integrator = Integrator::new(Kerr::new(SPIN), Scheme::Dop853 { tolerance: 1e-8 }, 10_000).boxed();
+    for (engine, tracer) in [("closed form", &closed as &dyn Tracer), ("integrator", integrator.as_ref())] {
         let mut group = criterion.benchmark_group(engine);
         group.throughput(Throughput::Elements(BATCH as u64));
         for (name, [least, most]) in kinds {

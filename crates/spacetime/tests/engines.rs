@@ -104,7 +104,7 @@ fn closed_form_and_integrator_agree() {
             let sensitivity = Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
             let tight = bound(1e-9, spin, &integrated, sensitivity);
             // Without time, distant light takes another way.
-            let loose = bound(1e-8, spin, &integrated, sensitivity);
+            let loose = bound(1e-9, spin, &integrated, sensitivity);
             for (query, place, time) in [(&query, tight, tight), (&untimed, loose, f64::INFINITY)] {
                 tracer.trace(&ray, query, &mut closed);
                 let told = || format!("a = {spin}: {ray:?}\n{closed:?}\n{integrated:?}");

@@ -61,13 +61,7 @@ impl Contender {
             all.extend(levels().map(|level| {
                 let metric = Components(Kerr::new(SPIN));
                 let tracer = Integrator::new(metric, scheme, MOST_STEPS).with_level(level);
-                Self {
-                    engine: ENGINES[2],
-                    method,
-                    tolerance: Some(tolerance),
-                    level,
-                    tracer: Box::new(tracer),
-                }
+                Self { engine: ENGINES[2], method, tolerance: Some(tolerance), level, tracer: tracer.boxed() }
             }));
         }
         all

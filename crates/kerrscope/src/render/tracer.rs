@@ -1,10 +1,10 @@
 //! What traces the rays of a scene.
 
-use crate::scene::{Engine, Method, Scene, Spacetime};
+use crate::scene::{Engine, Method, Scene};
 use crate::spacetime::Level;
 use crate::spacetime::closed::{ClosedForm, NODES};
 use crate::spacetime::geodesic::{Integrator, Scheme, Straight, Tracer};
-use crate::spacetime::metric::{Kerr, Schwarzschild};
+use crate::spacetime::metric::Kerr;
 
 /// The tracer that a scene asks for, with the instructions of a level.
 pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
@@ -17,15 +17,9 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
     };
     let steps = render.max_steps as usize;
     match (scene.spacetime.spin(), render.engine) {
+        (None, _) => Box::new(Straight),
         (Some(spin), Engine::ClosedForm) => Box::new(ClosedForm::new(spin, NODES, steps).with_level(level)),
-        _ => match scene.spacetime {
-            Spacetime::Minkowski => Box::new(Straight),
-            Spacetime::Schwarzschild => {
-                Box::new(Integrator::new(Schwarzschild, scheme, steps).with_level(level))
-            }
-            Spacetime::Kerr { spin } => {
-                Box::new(Integrator::new(Kerr::new(spin), scheme, steps).with_level(level))
-            }
-        },
+        // A hole without spin has the same coordinates.
+        (Some(spin), _) => Integrator::new(Kerr::new(spin), scheme, steps).with_level(level).boxed(),
     }
 }

@@ -104,12 +104,17 @@ impl<S: Scalar, const N: usize> Radial<S> for Distant<'_, S, N> {
         angle += rest * (-self.factors.quotient_at(u)).sqrt();
         let (sin, cos) = angle.sin_cos();
         let rest = goal - self.mino.at(angle, (sin, cos));
-        let u = width.mul_add(cos, middle);
-        let root = (-self.factors.quotient_at(u)).sqrt();
-        let step = rest * root;
-        let delta = u.mul_add(spin * spin * u - 2.0, u.constant(1.0));
-        let azimuth =
-            self.azimuth.at(angle, (sin, cos)) - self.begun[1] + rest * numerator(spin, lambda, u) / delta;
-        Place { u: (-width * sin).mul_add(step, u), azimuth, time: tau.constant(f64::NAN) }
+        let (along, across) = (width * cos, width * sin);
+        let u = along + middle;
+        // To second order: χ″ = p′(u)(du/dχ)/2.
+        let speed = (-self.factors.quotient_at(u)).sqrt();
+        let bend = self.factors.quotient_slope(u) * across * 0.25;
+        let step = rest * bend.mul_add(rest, speed);
+        let change = -(step * (along * 0.5).mul_add(step, across));
+        let between = change.mul_add(u.constant(0.5), u);
+        let delta = between.mul_add(spin * spin * between - 2.0, u.constant(1.0));
+        let azimuth = self.azimuth.at(angle, (sin, cos)) - self.begun[1]
+            + rest * numerator(spin, lambda, between) / delta;
+        Place { u: u + change, azimuth, time: tau.constant(f64::NAN) }
     }
 }

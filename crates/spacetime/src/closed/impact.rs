@@ -29,6 +29,8 @@ use crate::scalar::Scalar;
 ///   derivatives are those on the side α > 0; for a camera on the axis that in i is the one of i growing from 0
 ///   or falling from π;
 /// - θ of a ray that ends on the axis.
+/// - for light with η = 0 off the plane, which outwards from a camera near the hole nears the plane for ever: the
+///   part that comes from a change of η is missing.
 ///
 /// Everything else is differentiable, |a| = 1, a = 0, the axis, β = 0 and a camera at infinity (in u) included.
 ///

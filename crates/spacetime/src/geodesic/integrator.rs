@@ -8,7 +8,7 @@ use super::method::{Dop853, Method, Rk4, Tsit5};
 use super::walk::{Bounds, Control, End, Stop, walk};
 use super::{AffineFlow, Fate, Path, Query, Ray, Side, Tracer};
 use crate::lanes::Level;
-use crate::metric::{Inverted, Metric};
+use crate::metric::{Inverted, Kerr, Metric};
 use crate::tensor::dot;
 
 /// A Runge–Kutta method and its accuracy.
@@ -253,15 +253,20 @@ impl<M: Metric> Tracer for Integrator<M> {
         }
     }
 
-    /// On lanes, but for rays of constant steps, those whose points are wanted, and those of cameras inside the
-    /// horizon.
+    /// On lanes, but for rays of constant steps, those whose time or points are wanted, and those of cameras inside
+    /// the horizon.
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
         let constant = matches!(self.scheme, Scheme::Rk4 { .. });
         let mut rest = paths;
         for some in rays.chunk_by(|a, b| a.side == b.side) {
             let (now, later) = rest.split_at_mut(some.len());
             rest = later;
-            if constant || query.points > 0 || self.max_steps == 0 || some[0].side == Side::Ingoing {
+            if constant
+                || query.elapsed
+                || query.points > 0
+                || self.max_steps == 0
+                || some[0].side == Side::Ingoing
+            {
                 for (ray, path) in some.iter().zip(now) {
                     self.trace(ray, query, path);
                 }
@@ -273,13 +278,18 @@ impl<M: Metric> Tracer for Integrator<M> {
 }
 
 impl<M: Metric> Integrator<M> {
-    /// Rays of [`Side::Reversed`] on lanes.
+    /// Rays of [`Side::Reversed`], on lanes where they are wide enough to pay.
     fn trace_abreast(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
         for path in &mut *paths {
             path.clear();
         }
         let corrections = vec![0.0; rays.len()];
-        self.level.run(Task { integrator: self, rays, query, paths: &mut *paths, corrections });
+        let task = Task { integrator: self, rays, query, paths: &mut *paths, corrections };
+        if self.level.run_wide(task).is_err() {
+            for (ray, path) in rays.iter().zip(&mut *paths) {
+                self.follow(ray, query, path);
+            }
+        }
         if query.windings {
             for (ray, path) in rays.iter().zip(paths) {
                 path.windings = self.reversed.windings(ray.energy, &ray.start);
@@ -287,6 +297,24 @@ impl<M: Metric> Integrator<M> {
         }
     }
 }
+
+/// Made here, an integrator's kernels are compiled once, and not again in each crate that uses one.
+#[cfg(not(test))]
+macro_rules! compiled {
+    ($($metric:ty),+) => {$(
+        impl Integrator<$metric> {
+            /// As one of many kinds of tracers; of this metric its code is compiled already.
+            #[inline(never)]
+            pub fn boxed(self) -> Box<dyn Tracer> {
+                Box::new(self)
+            }
+        }
+    )+};
+}
+
+// Unit tests need none of them.
+#[cfg(not(test))]
+compiled!(Kerr);
 
 /// How far the conserved quantities, and the chart's own identities |n| = 1 and n·J = 0, have
 /// drifted, relative to their natural sizes.

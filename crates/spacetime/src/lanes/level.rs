@@ -60,26 +60,40 @@ impl Level {
         }
     }
 
-    /// Does work with these instructions, or the best below them that there are.
-    pub fn run<W: OnLanes>(self, work: W) -> W::Output {
+    /// Does work with these instructions, or the best below them that there are; gives it back if those are
+    /// the baseline's.
+    ///
+    /// # Errors
+    /// The work, undone.
+    pub fn run_wide<W: OnLanes>(self, work: W) -> Result<W::Output, W> {
         #[cfg(target_arch = "x86_64")]
         {
             let best = fearless_simd::Level::new();
             if let (Self::Avx512, Some(simd)) = (self, best.as_avx512()) {
-                return simd.vectorize(
+                return Ok(simd.vectorize(
                     #[inline(always)]
                     || work.run(simd),
-                );
+                ));
             }
             if let (Self::Avx512 | Self::Avx2, Some(simd)) = (self, best.as_avx2()) {
-                return simd.vectorize(
+                return Ok(simd.vectorize(
                     #[inline(always)]
                     || work.run(simd),
-                );
+                ));
             }
-            if let Some(simd) = best.as_sse2() {
-                return work.run(simd);
-            }
+        }
+        Err(work)
+    }
+
+    /// Does work with these instructions, or the best below them that there are.
+    pub fn run<W: OnLanes>(self, work: W) -> W::Output {
+        let work = match self.run_wide(work) {
+            Ok(done) => return done,
+            Err(work) => work,
+        };
+        #[cfg(target_arch = "x86_64")]
+        if let Some(simd) = fearless_simd::Level::new().as_sse2() {
+            return work.run(simd);
         }
         // Only architectures whose own baseline is one level come here.
         fearless_simd::dispatch!(fearless_simd::Level::baseline(), simd => work.run(simd))

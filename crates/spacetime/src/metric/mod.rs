@@ -242,9 +242,11 @@ fn inverted_rate_at<M: Metric, S: Scalar>(metric: &M, energy: S, state: &Inverte
     );
     let Rate { velocity, force } = metric.rate(energy, &x, &p);
     let along = dot(&n, &velocity);
+    // 1 to the letter. Any factor leaves x = n/w as it is; with this one an error in |n| does not grow.
+    let lengthening = along * (-dot(&n, &n) + 2.0);
     let turn: Vec3<S> = each(
         #[inline(always)]
-        |i| (velocity[i] - n[i] * along) * inverse_w,
+        |i| (velocity[i] - n[i] * lengthening) * inverse_w,
     );
     let push: Vec3<S> = each(
         #[inline(always)]
@@ -252,7 +254,7 @@ fn inverted_rate_at<M: Metric, S: Scalar>(metric: &M, energy: S, state: &Inverte
     );
     let (swept, torque) = (cross(&velocity, &p), cross(&x, &push));
     Inverted {
-        w: -along,
+        w: -lengthening,
         n: turn,
         q: dot(&turn, &p) + dot(&n, &push),
         j: each(

@@ -10,7 +10,7 @@ mod pair;
 mod rank;
 mod record;
 
-use super::inverted::{InvertedFlow, PLAIN, TIMED};
+use super::inverted::{InvertedFlow, PLAIN};
 use super::log::{Log, Origin};
 use super::method::{Dop853, Tsit5};
 use super::walk::{End, Visitor};
@@ -24,7 +24,7 @@ use fearless_simd::Simd;
 use pair::Pair;
 use rank::Rank;
 
-/// Rays to follow, and where to put what is found.
+/// Rays to follow, without elapsed time, and where to put what is found.
 pub struct Task<'a, M> {
     /// How.
     pub integrator: &'a Integrator<M>,
@@ -77,18 +77,10 @@ impl<M: Metric> OnLanes for Task<'_, M> {
 impl<M: Metric> Task<'_, M> {
     #[inline(always)]
     fn follow<L: Simd, S: Rank<L, W>, const W: usize>(&mut self, simd: L) {
-        match (self.integrator.scheme, self.query.elapsed) {
-            (Scheme::Dop853 { .. }, false) => {
-                Column::<PLAIN, 12, W>::new().follow::<L, S, M, Dop853>(simd, self);
-            }
-            (Scheme::Dop853 { .. }, true) => {
-                Column::<TIMED, 12, W>::new().follow::<L, S, M, Dop853>(simd, self);
-            }
-            (Scheme::Tsit5 { .. }, false) => {
-                Column::<PLAIN, 6, W>::new().follow::<L, S, M, Tsit5>(simd, self)
-            }
-            (Scheme::Tsit5 { .. }, true) => Column::<TIMED, 6, W>::new().follow::<L, S, M, Tsit5>(simd, self),
-            (Scheme::Rk4 { .. }, _) => {}
+        match self.integrator.scheme {
+            Scheme::Dop853 { .. } => Column::<PLAIN, 12, W>::new().follow::<L, S, M, Dop853>(simd, self),
+            Scheme::Tsit5 { .. } => Column::<PLAIN, 6, W>::new().follow::<L, S, M, Tsit5>(simd, self),
+            Scheme::Rk4 { .. } => {}
         }
     }
 }
