@@ -153,6 +153,14 @@ impl Scalar for f64 {
         self < other
     }
     #[inline(always)]
+    fn outline<R>(self, part: impl FnOnce() -> R) -> R {
+        #[inline(never)]
+        fn apart<R>(part: impl FnOnce() -> R) -> R {
+            part()
+        }
+        apart(part)
+    }
+    #[inline(always)]
     fn any(mask: bool) -> bool {
         mask
     }
