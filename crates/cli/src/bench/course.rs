@@ -1,6 +1,7 @@
 //! The rays that all engines follow.
 
 use crate::report::Failure;
+use cpu_time::ThreadTime;
 use kerrscope::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use kerrscope::spacetime::observer::{Motion, Observer, Place};
 use rayon::prelude::*;
@@ -23,6 +24,8 @@ pub struct Counts {
     pub captured: usize,
     pub escaped: usize,
     pub crossings: usize,
+    /// CPU time of the tracing alone, all threads together, in seconds.
+    pub cpu_s: f64,
 }
 
 /// What is kept of a path.
@@ -52,10 +55,14 @@ impl Course {
     /// Follows every ray, and counts what is found.
     pub fn pass(&self, tracer: &dyn Tracer) -> Counts {
         let query = Query { max_crossings: 3, ..Query::default() };
-        let count = |paths: &mut Vec<Path>, rays: &[Ray]| {
+        let count = |(batch, paths): &mut (Vec<Ray>, Vec<Path>), rays: &[Ray]| {
+            // A render makes its rays just before; here they come from far away in memory.
+            batch.clear();
+            batch.extend_from_slice(rays);
             paths.resize_with(rays.len(), Path::default);
-            tracer.trace_all(rays, &query, paths);
-            let mut counts = Counts::default();
+            let cpu = ThreadTime::now();
+            tracer.trace_all(batch, &query, paths);
+            let mut counts = Counts { cpu_s: cpu.elapsed().as_secs_f64(), ..Counts::default() };
             for path in &*paths {
                 counts.captured += usize::from(path.fate == Fate::Captured);
                 counts.escaped += usize::from(path.fate == Fate::Escaped);
@@ -67,8 +74,9 @@ impl Course {
             captured: a.captured + b.captured,
             escaped: a.escaped + b.escaped,
             crossings: a.crossings + b.crossings,
+            cpu_s: a.cpu_s + b.cpu_s,
         };
-        self.rays.par_chunks(BATCH).map_init(Vec::new, count).reduce(Counts::default, add)
+        self.rays.par_chunks(BATCH).map_init(Default::default, count).reduce(Counts::default, add)
     }
 
     /// Follows every ray, and keeps what is found. Elapsed time is asked for when the answers are to

@@ -2,7 +2,6 @@
 
 use super::contender::Contender;
 use super::course::{Answer, Counts, Course, SPIN};
-use cpu_time::ProcessTime;
 use kerrscope::spacetime::metric::{Kerr, Metric};
 use serde::Serialize;
 use std::fmt;
@@ -43,14 +42,15 @@ impl Row {
     /// Measures a contender; `exact` is what its answers are compared with.
     pub fn of(contender: &Contender, course: &Course, exact: &[Answer], threads: u32) -> Self {
         let tracer = contender.tracer.as_ref();
-        let mut passes: Vec<(f64, f64, Counts)> = Vec::new();
-        while passes.len() < MOST_PASSES && passes.iter().map(|pass| pass.1).sum::<f64>() < ENOUGH {
-            let (start, cpu) = (Instant::now(), ProcessTime::now());
+        let mut passes: Vec<(f64, Counts)> = Vec::new();
+        while passes.len() < MOST_PASSES && passes.iter().map(|pass| pass.1.cpu_s).sum::<f64>() < ENOUGH {
+            let start = Instant::now();
             let counts = course.pass(tracer);
-            passes.push((start.elapsed().as_secs_f64(), cpu.elapsed().as_secs_f64(), counts));
+            passes.push((start.elapsed().as_secs_f64(), counts));
         }
-        passes.sort_by(|a, b| a.1.total_cmp(&b.1));
-        let (wall_s, cpu_s, counts) = passes[passes.len() / 2];
+        passes.sort_by(|a, b| a.1.cpu_s.total_cmp(&b.1.cpu_s));
+        let (wall_s, counts) = passes[passes.len() / 2];
+        let cpu_s = counts.cpu_s;
         let errors = Errors::new(course, exact, &course.answers(tracer, false));
         Self {
             engine: contender.engine,
