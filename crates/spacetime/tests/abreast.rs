@@ -104,7 +104,7 @@ fn agree(
                     assert_eq!(path.crossings.len(), single.crossings.len(), "{}", told());
                     // A step on the edge of being refused may be taken by one of the two.
                     let steps = path.steps.abs_diff(single.steps);
-                    assert!(steps <= 2 + single.steps / 10, "{}", told());
+                    assert!(steps <= 2, "{}", told());
                     let farthest = path.crossings.iter().map(|c| c.r).fold(1.0, f64::max);
                     let rounding = noise * sensitivity * farthest;
                     let bound = rounding + if steps == 0 { 0.0 } else { 100.0 * single.error_estimate };
@@ -127,7 +127,7 @@ fn kerr() {
     }
 }
 
-/// By components alone: on lanes as alone, and as by the metric's own equations, infinity included.
+/// By components alone: as by the metric's own equations, infinity included.
 #[test]
 fn components() {
     let mut random = Random::new(14);
@@ -136,16 +136,11 @@ fn components() {
     let query = Query { elapsed: true, ..Query::default() };
     let scheme = Scheme::Dop853 { tolerance: 1e-9 };
     let exact = kerr_tracer(spin, scheme);
-    let of = |ray: &Ray| Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
-    let make = |scheme, level| {
-        Integrator::new(Components(Kerr::new(spin)), scheme, 10_000).with_level(level).boxed()
-    };
-    agree(make, &rays, of, 1e-8);
-    let tracer = make(scheme, Level::best());
+    let tracer = Integrator::new(Components(Kerr::new(spin)), scheme, 10_000);
     let (mut known, mut found) = (Path::default(), Path::default());
     let mut apart = Vec::new();
     for ray in &rays {
-        let sensitivity = of(ray);
+        let sensitivity = Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
         if sensitivity < 1e3 {
             exact.trace(ray, &query, &mut known);
             tracer.trace(ray, &query, &mut found);
@@ -159,7 +154,7 @@ fn components() {
     apart.sort_by(f64::total_cmp);
     let (median, worst) = (apart[apart.len() / 2], apart[apart.len() - 1]);
     println!("components alone: median {median:.1e}, worst {worst:.1e}");
-    assert!(median < 1e-9 && worst < 1e-7, "{median:e} {worst:e}");
+    assert!(median < 1e-10 && worst < 1e-8, "{median:e} {worst:e}");
 }
 
 /// Rays that are given up, cannot be followed or go another way leave those beside them alone.
