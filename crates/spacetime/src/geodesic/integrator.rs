@@ -8,7 +8,7 @@ use super::method::{Dop853, Method, Rk4, Tsit5};
 use super::walk::{Bounds, Control, End, Stop, walk};
 use super::{AffineFlow, Fate, Path, Query, Ray, Side, Tracer};
 use crate::lanes::Level;
-use crate::metric::{Inverted, Kerr, Metric};
+use crate::metric::{Inverted, Metric};
 use crate::tensor::dot;
 
 /// A Runge–Kutta method and its accuracy.
@@ -314,7 +314,7 @@ macro_rules! compiled {
 
 // Unit tests need none of them.
 #[cfg(not(test))]
-compiled!(Kerr);
+compiled!(crate::metric::Kerr);
 
 /// How far the conserved quantities, and the chart's own identities |n| = 1 and n·J = 0, have
 /// drifted, relative to their natural sizes.
