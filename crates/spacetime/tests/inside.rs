@@ -174,7 +174,7 @@ fn change_of_sheet() {
         kept.see((other.w - state.w).abs() + (other.n[2] - state.n[2]).abs(), label);
         kept.see((dot(&other.n, &other.n) - 1.0).abs() + dot(&other.n, &other.j).abs() / r / kick, label);
     }
-    back.below(3e-14, "there and back");
+    back.below(6e-14, "there and back");
     kept.below(2e-13, "conserved");
 }
 

@@ -124,7 +124,7 @@ fn tetrads_are_orthonormal() {
         }
     }
     assert!(inside > 500);
-    frames.below(1e-14, "tetrads");
+    frames.below(2e-14, "tetrads");
     near.below(1e-13, "tetrads boosted or next to the horizon");
     rays.below(3e-13, "rays");
 }

@@ -26,7 +26,7 @@ fn straight_in_without_spin() {
     // Straight out, too: the direction is that of the camera.
     let path = closed(0.0, &seen(0.0, 2.5, 1.0, [1.0, 0.0, 0.0]), &TIMED);
     let [theta, phi] = path.direction.unwrap();
-    assert!((theta - 1.0).abs() < 1e-15 && (phi - 0.3).abs() < 1e-15, "{theta} {phi}");
+    assert!((theta - 1.0).abs() < 4e-15 && (phi - 0.3).abs() < 4e-15, "{theta} {phi}");
 }
 
 /// η = 0: a ray in the plane stays there and meets it nowhere; its azimuth is the integrator's.
