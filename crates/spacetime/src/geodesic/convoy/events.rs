@@ -46,7 +46,7 @@ pub struct Event {
 /// Steps that wait.
 pub struct Events<const D: usize, const STAGES: usize, const W: usize> {
     record: Record<D, STAGES, W>,
-    events: [Event; W],
+    waiting: [Event; W],
     count: usize,
 }
 
@@ -63,7 +63,7 @@ struct Found<const D: usize, const W: usize> {
 impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
     pub fn new() -> Self {
         let none = Event { ray: 0, steps: 0, kind: Kind::Turns, falls: false };
-        Self { record: Record::EMPTY, events: [none; W], count: 0 }
+        Self { record: Record::EMPTY, waiting: [none; W], count: 0 }
     }
 
     /// Adds a lane of a record; says whether there is no room for more.
@@ -75,7 +75,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         event: Event,
     ) -> bool {
         self.record.copy(self.count, other, from, R::SPARED);
-        self.events[self.count] = event;
+        self.waiting[self.count] = event;
         self.count += 1;
         self.count == W
     }
@@ -99,7 +99,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             || this.look::<L, S, M, R>(simd, task, result),
         );
         for lane in 0..self.count {
-            let Event { ray, steps, kind, falls } = self.events[lane];
+            let Event { ray, steps, kind, falls } = self.waiting[lane];
             let step_swept = found.swept[lane];
             let swept = self.record.swept[lane] + task.corrections[ray] + step_swept;
             let y = found.y.each_ref().map(|column| column[lane]);
@@ -124,7 +124,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
     fn lanes(&self, kind: Kind) -> u64 {
         let mut bits = 0;
         for lane in 0..self.count {
-            bits |= u64::from(self.events[lane].kind == kind) << lane;
+            bits |= u64::from(self.waiting[lane].kind == kind) << lane;
         }
         bits
     }
@@ -169,7 +169,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         found.y = scatter(&there);
         found.swept = self.sweep::<L, S>(&dense, heading, theta, &there);
         for lane in 0..self.count {
-            let kind = self.events[lane].kind;
+            let kind = self.waiting[lane].kind;
             if kind == Kind::Grazes || kind == Kind::Crosses && self.starts_in_plane(task, lane) {
                 let heading = [heading[0].lane(lane), heading[1].lane(lane), heading[2].lane(lane)];
                 self.dip(&dense.lane(lane), &heading, lane, task);
@@ -225,7 +225,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         lane: usize,
         task: &mut Task<'_, M>,
     ) {
-        let Event { ray, falls, .. } = self.events[lane];
+        let Event { ray, falls, .. } = self.waiting[lane];
         let plane = task.query.plane;
         let height = |y: &[f64; D]| dot(&inverted_place(y), &plane);
         let heights = [height(&dense.at(0.0)), self.record.above[lane], height(&dense.at(1.0))];
