@@ -79,6 +79,9 @@ fn agree(
     for scheme in schemes {
         for query in [
             Query { max_crossings: 3, ..Query::default() },
+            Query { plane: [0.6, 0.0, 0.8], ..Query::default() },
+            // Nearly edge on for a camera in the plane: rays dip through it.
+            Query { plane: [0.999, 0.0, 0.0447], max_crossings: 2, ..Query::default() },
             Query { elapsed: true, plane: [0.6, 0.0, 0.8], ..Query::default() },
         ] {
             for level in Level::ALL.into_iter().filter(|level| level.is_available()) {
@@ -104,7 +107,7 @@ fn agree(
                     assert_eq!(path.crossings.len(), single.crossings.len(), "{}", told());
                     // A step on the edge of being refused may be taken by one of the two.
                     let steps = path.steps.abs_diff(single.steps);
-                    assert!(steps <= 2, "{}", told());
+                    assert!(steps <= 2 + single.steps / 10, "{}", told());
                     let farthest = path.crossings.iter().map(|c| c.r).fold(1.0, f64::max);
                     let rounding = noise * sensitivity * farthest;
                     let bound = rounding + if steps == 0 { 0.0 } else { 100.0 * single.error_estimate };
@@ -127,20 +130,27 @@ fn kerr() {
     }
 }
 
-/// By components alone: as by the metric's own equations, infinity included.
+/// By components alone: on lanes as alone, and as by the metric's own equations, infinity included.
 #[test]
 fn components() {
     let mut random = Random::new(14);
     let spin = 0.9;
-    let rays = shots(&mut random, spin, 330);
+    let mut rays = shots(&mut random, spin, 330);
+    // Over the axis rounding decides which way around it is.
+    rays.retain(|ray| ray.start.j[2].abs() > 1e-6);
     let query = Query { elapsed: true, ..Query::default() };
     let scheme = Scheme::Dop853 { tolerance: 1e-9 };
-    let exact = kerr_tracer(spin, scheme);
-    let tracer = Integrator::new(Components(Kerr::new(spin)), scheme, 10_000);
+    let exact = kerr_tracer(spin, scheme).boxed();
+    let of = |ray: &Ray| Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
+    let make = |scheme, level| {
+        Integrator::new(Components(Kerr::new(spin)), scheme, 10_000).with_level(level).boxed()
+    };
+    agree(make, &rays, of, 1e-8);
+    let tracer = make(scheme, Level::best());
     let (mut known, mut found) = (Path::default(), Path::default());
     let mut apart = Vec::new();
     for ray in &rays {
-        let sensitivity = Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
+        let sensitivity = of(ray);
         if sensitivity < 1e3 {
             exact.trace(ray, &query, &mut known);
             tracer.trace(ray, &query, &mut found);

@@ -12,7 +12,11 @@ const SPINS: [f64; 5] = [0.0, 0.5, 0.9, -0.998, 1.0];
 
 fn trace(spin: f64, ray: &Ray) -> Path {
     let query = Query { elapsed: true, ..Query::default() };
-    follow(&Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-13 }, 10_000), ray, &query)
+    follow(
+        &Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-13 }, 10_000).boxed(),
+        ray,
+        &query,
+    )
 }
 
 /// What two paths differ by, the second having been turned by `angle` about the axis.

@@ -105,7 +105,7 @@ fn sensitivity(shot: &Shot) -> f64 {
 
 fn trace(shot: &Shot, scheme: Scheme) -> Path {
     let query = Query { plane: shot.plane, elapsed: true, points: 12, max_crossings: 8, windings: false };
-    follow(&Integrator::new(Kerr::new(shot.spin), scheme, 10_000), &shot.ray, &query)
+    follow(&Integrator::new(Kerr::new(shot.spin), scheme, 10_000).boxed(), &shot.ray, &query)
 }
 
 fn everything_is_finite(path: &Path) -> bool {
@@ -256,7 +256,7 @@ fn error_estimates() {
                 let (spin, ray) = any_ray(&mut random);
                 let run = |tolerance| {
                     follow(
-                        &Integrator::new(Kerr::new(spin), scheme(tolerance), 10_000),
+                        &Integrator::new(Kerr::new(spin), scheme(tolerance), 10_000).boxed(),
                         &ray,
                         &Query::default(),
                     )

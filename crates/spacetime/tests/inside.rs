@@ -16,7 +16,7 @@ use std::f64::consts::FRAC_PI_2;
 const DOP853: Scheme = Scheme::Dop853 { tolerance: 1e-13 };
 
 fn trace(spin: f64, ray: &Ray) -> Path {
-    follow(&Integrator::new(Kerr::new(spin), DOP853, 10_000), ray, &Query::default())
+    follow(&Integrator::new(Kerr::new(spin), DOP853, 10_000).boxed(), ray, &Query::default())
 }
 
 /// At a = 0 a photon seen at an angle whose cosine from e_r is d by a camera that fell from rest

@@ -5,7 +5,7 @@ mod common;
 
 use common::mino::{Photon, travel};
 use common::{DEGREE, Random, Worst, distance, folded, follow, impact, separation};
-use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme};
+use kerrscope_spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
 use kerrscope_spacetime::kerr::horizons;
 use kerrscope_spacetime::metric::{Inverted, Kerr, Metric};
 use kerrscope_spacetime::observer::{Motion, Observer, Place};
@@ -14,8 +14,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 const SPINS: [f64; 9] = [0.0, 0.3, -0.5, 0.9, -0.9, 0.998, -0.998, 1.0, -1.0];
 
-fn integrator(spin: f64) -> Integrator<Kerr> {
-    Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-13 }, 10_000)
+fn integrator(spin: f64) -> Box<dyn Tracer> {
+    Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-13 }, 10_000).boxed()
 }
 
 fn timed() -> Query {
@@ -350,7 +350,7 @@ fn methods_agree() {
         let spin = random.pick(&SPINS);
         let place = Place { r: random.within(5.0, 30.0), theta: random.within(0.1, 3.0), phi: 1.0 };
         let ray = Observer::new(Some(spin), place, Motion::Static).unwrap().ray(random.direction());
-        let run = |scheme| follow(&Integrator::new(Kerr::new(spin), scheme, 200_000), &ray, &timed());
+        let run = |scheme| follow(&Integrator::new(Kerr::new(spin), scheme, 200_000).boxed(), &ray, &timed());
         let best = run(Scheme::Dop853 { tolerance: 1e-13 });
         let share = 1.0 / Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
         for (scheme, worst) in
@@ -397,7 +397,7 @@ fn points_are_on_a_null_geodesic() {
         let scheme =
             if i % 3 == 0 { Scheme::Rk4 { step: 0.02 } } else { Scheme::Dop853 { tolerance: 1e-14 } };
         let path = follow(
-            &Integrator::new(Kerr::new(spin), scheme, 100_000),
+            &Integrator::new(Kerr::new(spin), scheme, 100_000).boxed(),
             &ray,
             &Query { points: 600, ..timed() },
         );

@@ -6,7 +6,7 @@ use kerrscope_spacetime::observer::{Motion, Observer, Place, impact_ray};
 
 fn trace(spin: f64, ray: &Ray, tolerance: f64) -> Path {
     let mut path = Path::default();
-    let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance }, 20_000);
+    let tracer = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance }, 20_000).boxed();
     tracer.trace(ray, &Query::default(), &mut path);
     path
 }

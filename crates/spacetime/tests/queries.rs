@@ -10,8 +10,8 @@ use kerrscope_spacetime::observer::{Motion, Observer, Place};
 use kerrscope_spacetime::tensor::{cross, dot};
 use std::f64::consts::{FRAC_PI_2, PI};
 
-fn tracer(scheme: Scheme) -> Integrator<Kerr> {
-    Integrator::new(Kerr::new(0.9), scheme, 10_000)
+fn tracer(scheme: Scheme) -> Box<dyn Tracer> {
+    Integrator::new(Kerr::new(0.9), scheme, 10_000).boxed()
 }
 
 const DOP853: Scheme = Scheme::Dop853 { tolerance: 1e-10 };
@@ -83,13 +83,13 @@ fn giving_up() {
     let ray = winding();
     let whole = follow(&tracer(DOP853), &ray, &Query::default());
     for most in [0, 1, 5, whole.steps - 1] {
-        let path = follow(&Integrator::new(Kerr::new(0.9), DOP853, most), &ray, &Query::default());
+        let path = follow(&Integrator::new(Kerr::new(0.9), DOP853, most).boxed(), &ray, &Query::default());
         assert_eq!((path.fate, path.direction, path.steps), (Fate::StepLimit, None, most));
         for (a, b) in path.crossings.iter().zip(&whole.crossings) {
             assert_eq!(a.r, b.r);
         }
     }
-    let path = follow(&Integrator::new(Kerr::new(0.9), DOP853, whole.steps), &ray, &Query::default());
+    let path = follow(&Integrator::new(Kerr::new(0.9), DOP853, whole.steps).boxed(), &ray, &Query::default());
     assert_eq!((path.fate, path.direction), (Fate::Escaped, whole.direction));
     // Constant steps of affine parameter cannot come in from infinity.
     let path = follow(&tracer(Scheme::Rk4 { step: 0.1 }), &ray, &Query::default());
@@ -145,8 +145,8 @@ fn apart(a: &Crossing, b: &Crossing) -> f64 {
 #[test]
 fn planes_that_are_grazed() {
     let spin = 0.998;
-    let rough = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-5 }, 1000);
-    let fine = Integrator::new(Kerr::new(spin), Scheme::Tsit5 { tolerance: 1e-12 }, 10_000);
+    let rough = Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-5 }, 1000).boxed();
+    let fine = Integrator::new(Kerr::new(spin), Scheme::Tsit5 { tolerance: 1e-12 }, 10_000).boxed();
     let (mut dips, mut crowded) = (0, 0);
     for (alpha, beta) in [(-6.0, 5.0), (2.0, 7.0), (5.0, -6.5), (-4.0, -6.0), (7.5, 2.0)] {
         let ray = impact(spin, 1.0, 60.0, alpha, beta);

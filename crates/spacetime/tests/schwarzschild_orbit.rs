@@ -178,7 +178,8 @@ fn deflection() {
             // Errors grow as the inverse of the offset from the critical curve.
             let offset = b / 27f64.sqrt() - 1.0;
             worst.see((sign * phi - PI - exact).abs() * offset.min(1.0), || format!("b = {b}"));
-            let same = follow(&Integrator::new(Kerr::new(0.0), DOP853, 10_000), &ray, &Query::default());
+            let same =
+                follow(&Integrator::new(Kerr::new(0.0), DOP853, 10_000).boxed(), &ray, &Query::default());
             worst
                 .see((same.direction.unwrap()[1] - phi).abs() * offset.min(1.0), || format!("Kerr, b = {b}"));
         }

@@ -10,7 +10,7 @@ use kerrscope_spacetime::metric::Kerr;
 use kerrscope_spacetime::observer::impact_ray;
 
 fn trace(spin: f64, inclination: f64, r: f64, [alpha, beta]: [f64; 2], scheme: Scheme, most: usize) -> Path {
-    let tracer = Integrator::new(Kerr::new(spin), scheme, most);
+    let tracer = Integrator::new(Kerr::new(spin), scheme, most).boxed();
     let ray = if r.is_infinite() {
         impact(spin, inclination, r, alpha, beta)
     } else {

@@ -52,6 +52,11 @@ impl Course {
         Ok(Self { rays: pixels.map(ray).collect() })
     }
 
+    /// One ray in so many.
+    pub fn one_in(&self, many: usize) -> Self {
+        Self { rays: self.rays.iter().step_by(many).copied().collect() }
+    }
+
     /// Follows every ray, and counts what is found.
     pub fn pass(&self, tracer: &dyn Tracer) -> Counts {
         let query = Query { max_crossings: 3, ..Query::default() };

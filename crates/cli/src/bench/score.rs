@@ -7,9 +7,11 @@ use serde::Serialize;
 use std::fmt;
 use std::time::Instant;
 
-/// Passes go on until they took so long, CPU seconds, …
+/// Passes, of which there are an odd number, go on until they took so long, CPU seconds, …
 const ENOUGH: f64 = 1.5;
-/// … or there were so many.
+/// … and there were so many, …
+const FEWEST_PASSES: usize = 3;
+/// … or so many.
 const MOST_PASSES: usize = 9;
 
 #[derive(Serialize)]
@@ -37,13 +39,19 @@ pub struct Row {
 }
 
 impl Row {
-    pub const HEADING: &'static str = "engine       method             tolerance simd      rays/s/core  sky error median / max   radius error median / max";
+    pub const HEADING: &'static str = "engine       method             tolerance simd      rays/s/core  sky error median / max   radius error median / max    mismatched";
 
-    /// Measures a contender; `exact` is what its answers are compared with.
-    pub fn of(contender: &Contender, course: &Course, exact: &[Answer], threads: u32) -> Self {
+    /// Measures a contender; `exact` is what the answers for the whole course are compared with.
+    pub fn of(contender: &Contender, whole: &Course, exact: &[Answer], threads: u32) -> Self {
         let tracer = contender.tracer.as_ref();
+        let course = &whole.one_in(contender.one_in);
         let mut passes: Vec<(f64, Counts)> = Vec::new();
-        while passes.len() < MOST_PASSES && passes.iter().map(|pass| pass.1.cpu_s).sum::<f64>() < ENOUGH {
+        let enough = |passes: &[(f64, Counts)]| {
+            let cpu_s: f64 = passes.iter().map(|pass| pass.1.cpu_s).sum();
+            let count = passes.len();
+            count >= MOST_PASSES || count % 2 == 1 && count >= FEWEST_PASSES && cpu_s >= ENOUGH
+        };
+        while !enough(&passes) {
             let start = Instant::now();
             let counts = course.pass(tracer);
             passes.push((start.elapsed().as_secs_f64(), counts));
@@ -51,7 +59,8 @@ impl Row {
         passes.sort_by(|a, b| a.1.cpu_s.total_cmp(&b.1.cpu_s));
         let (wall_s, counts) = passes[passes.len() / 2];
         let cpu_s = counts.cpu_s;
-        let errors = Errors::new(course, exact, &course.answers(tracer, false));
+        let errors =
+            Errors::new(course, exact.iter().step_by(contender.one_in), &course.answers(tracer, false));
         Self {
             engine: contender.engine,
             method: contender.method,
@@ -84,7 +93,8 @@ impl fmt::Display for Row {
             self.engine, self.method, self.simd, self.rays_per_cpu_s
         )?;
         write!(f, "{:>14.1e} / {:.1e}", self.sky_error_median, self.sky_error_max)?;
-        write!(f, "{:>17.1e} / {:.1e}", self.radius_error_median, self.radius_error_max)
+        write!(f, "{:>17.1e} / {:.1e}", self.radius_error_median, self.radius_error_max)?;
+        write!(f, "{:>17}", self.mismatched)
     }
 }
 
@@ -97,7 +107,7 @@ struct Errors {
 }
 
 impl Errors {
-    fn new(course: &Course, exact: &[Answer], found: &[Answer]) -> Self {
+    fn new<'a>(course: &Course, exact: impl Iterator<Item = &'a Answer>, found: &[Answer]) -> Self {
         let metric = Kerr::new(-SPIN);
         let mut errors = Self { sky: Vec::new(), radius: Vec::new(), share: 0.0, mismatched: 0 };
         for ((ray, exact), found) in course.rays.iter().zip(exact).zip(found) {

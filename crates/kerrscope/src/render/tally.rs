@@ -27,11 +27,11 @@ pub struct Tally {
 pub struct Interpolation {
     /// Samples that were interpolated.
     pub samples: u64,
-    /// Samples picked by chance over the whole picture that were traced as well.
+    /// Those among them, picked by chance, that were traced as well.
     pub compared: u64,
-    /// Those among them that end or cross the plane otherwise than was interpolated.
+    /// Those compared that end or cross the plane otherwise than was interpolated.
     pub missed: u64,
-    /// Largest error of the others.
+    /// Largest error of the others compared.
     pub worst: f64,
 }
 
@@ -41,8 +41,13 @@ impl Interpolation {
         self.samples += other.samples;
         self.compared += other.compared;
         self.missed += other.missed;
-        self.worst = self.worst.max(other.worst);
+        self.worst = worse(self.worst, other.worst);
     }
+}
+
+/// The larger of two errors. What is not a number is no small error.
+pub(super) fn worse(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b <= a { a } else { b }
 }
 
 /// Powers of two from 2⁻⁶⁴ to 2³¹.
@@ -98,6 +103,14 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_not_a_number_stays_the_worst() {
+        assert_eq!([1e-2, 1e-9].into_iter().fold(0.0, worse), 1e-2);
+        for errors in [[f64::NAN, 1e-2, 1e-9], [1e-2, f64::NAN, 1e-9], [1e-2, 1e-9, f64::NAN]] {
+            assert!(errors.into_iter().fold(0.0, worse).is_nan());
+        }
+    }
 
     #[test]
     fn quantiles_bound_the_estimates() {

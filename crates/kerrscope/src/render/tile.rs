@@ -14,7 +14,7 @@ const LONGEST: u32 = 16;
 /// is lost with it.
 const MOST_RAYS: u32 = 8192;
 
-/// How a picture is cut into tiles. What a pixel shows does not depend on it.
+/// How a picture is cut into tiles. What a pixel shows does not depend on it unless the picture is adaptive.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tiling {
     size: [u32; 2],

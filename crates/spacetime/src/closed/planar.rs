@@ -44,7 +44,7 @@ pub fn after<S: Scalar>(photon: &Photon<S>, heading: [S; 2], tau: S) -> [S; 2] {
     let (scale, change) = (even + slope * odd, b * odd + slope * even);
     let end = S::select(near, mu * even + mu_rate * odd, mu / scale);
     let sign = S::select(heading[0].less(zero), -one, one);
-    let begun = (-(heading[1] * per_mu)).atan2(heading[0] * sign);
+    let begun = (-(heading[1] * per_mu)).atan2(heading[0] * sign + 0.0);
     let turned = (change / scale).atan2(lambda * sign) - begun;
     let turned = lambda * tau + S::select(near, zero, turned * sign);
     let sin = (-(end * end) + 1.0).max(zero).sqrt();

@@ -18,22 +18,22 @@ use super::photon::{Photon, Potential};
 use super::series::{Cosines, Integral, cosines, sines};
 use crate::scalar::Scalar;
 
-/// Terms of the Fourier series that are enough up to |q| = [`FEW_REACH`].
+/// Terms of the Fourier series that are enough up to ℓ = [`FEW_REACH`].
 pub const FEW: usize = 6;
 
-/// The largest |q| for [`FEW`] terms.
+/// The largest ℓ for [`FEW`] terms, ℓ being the first term of the nome q = ℓ + 2ℓ⁵ + 15ℓ⁹ + …
 pub const FEW_REACH: f64 = 0.02;
 
-/// Terms that are enough up to |q| = [`SOME_REACH`]: light that plunges with b ≲ 2 M.
+/// Terms that are enough up to ℓ = [`SOME_REACH`]: light that plunges with b ≲ 2 M.
 pub const SOME: usize = 16;
 
-/// The largest |q| for [`SOME`] terms.
+/// The largest ℓ for [`SOME`] terms.
 pub const SOME_REACH: f64 = 0.15;
 
-/// Terms that are enough up to |q| = [`LARGE_REACH`]: light that plunges with b ≲ 1 M.
+/// Terms that are enough up to ℓ = [`LARGE_REACH`]: light that plunges with b ≲ 1 M.
 pub const LARGE: usize = 48;
 
-/// The largest |q| for [`LARGE`] terms.
+/// The largest ℓ for [`LARGE`] terms; |q| is 0.51 there.
 pub const LARGE_REACH: f64 = 0.45;
 
 /// Terms that are enough for any photon: |q| nears 1 only for light that all but falls straight in.
@@ -83,7 +83,7 @@ fn first_nome<S: Scalar>(complement: S) -> S {
     (-root + 1.0) * 0.5 / (root + 1.0)
 }
 
-/// About |q| of a photon with η > 0: beyond [`FEW_REACH`] it needs [`MANY`] terms.
+/// ℓ of a photon with η > 0, about its |q|: beyond [`FEW_REACH`] it needs [`MANY`] terms.
 #[inline(always)]
 pub fn size_of_nome<S: Scalar>(photon: &Photon<S>) -> S {
     first_nome((modulus(photon)[1] + 1.0).sqrt()).abs()
@@ -185,7 +185,7 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
         let double = phase * 2.0;
         let at = double.sin_cos();
         let start = [
-            (heading[0] * sign * sin).atan2(root_b * heading[1]),
+            (heading[0] * sign * sin + 0.0).atan2(root_b * heading[1]),
             azimuth.at(double, at) * 0.5,
             if TIMED { height.at(double, at) * 0.5 } else { zero },
         ];

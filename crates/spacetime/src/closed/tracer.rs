@@ -18,7 +18,6 @@ use crate::geodesic::{Crossing, Fate, Integrator, Path, Query, Ray, Scheme, Trac
 use crate::kerr::horizons;
 use crate::lanes::Level;
 use crate::metric::{Inverted, Kerr, Metric};
-use crate::tensor::dot;
 
 /// Nodes of quadratures that err by less than rounding does.
 pub const NODES: usize = 24;
@@ -61,7 +60,7 @@ pub struct ClosedForm {
 }
 
 impl ClosedForm {
-    /// A tracer around a hole of spin a, with so many nodes in each quadrature: with [`NODES`] nothing but rounding
+    /// A tracer around a hole of spin a in [−1, 1], with so many nodes in each quadrature: with [`NODES`] nothing but rounding
     /// is left, with 12 errors of the direction are below 5·10⁻⁸. What is left to an integrator has at most
     /// `max_steps` steps.
     pub fn new(spin: f64, nodes: usize, max_steps: usize) -> Self {
@@ -87,7 +86,8 @@ impl ClosedForm {
 
     /// Whether what is asked can be found in closed form.
     fn answers(query: &Query) -> bool {
-        query.plane[2].abs() == dot(&query.plane, &query.plane).sqrt() && query.points == 0
+        let [x, y, z] = query.plane;
+        x == 0.0 && y == 0.0 && z != 0.0 && query.points == 0
     }
 
     /// Follows a photon whose radial motion is known.
@@ -189,6 +189,7 @@ impl Tracer for ClosedForm {
     }
 
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        assert_eq!(rays.len(), paths.len(), "a path for each ray");
         if !Self::answers(query) || query.windings {
             for (ray, path) in rays.iter().zip(paths) {
                 self.trace(ray, query, path);
@@ -205,7 +206,8 @@ impl Tracer for ClosedForm {
 
 /// How often light goes round a hole from a place and momentum on to its end, in the spacetime in which it
 /// is followed: the periods of its motion in θ, ωτ/2π. Without spin it is the angle swept over 2π. NaN
-/// where the motion in θ does not cross the plane (η < 0), and where the energy is not positive.
+/// where the motion in θ does not cross the plane (η < 0, and light within the plane with |λ| < |s|), and where the
+/// energy is not positive.
 pub(crate) fn windings(metric: Kerr, energy: f64, start: &Inverted<f64>) -> f64 {
     if !(energy > 0.0) {
         return f64::NAN;

@@ -101,15 +101,14 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
     /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it.
     #[inline(always)]
     fn way_out(&self, y: &[S; D], slope: &[S; D]) -> S {
-        let never = y[0].constant(f64::INFINITY);
+        let (zero, never) = (y[0].constant(0.0), y[0].constant(f64::INFINITY));
         if M::PASSES_INFINITY {
             return never;
         }
         let j = [y[5], y[6], y[7]];
         let approach = -slope[0];
         let turn = dot(&j, &j) * (y[0] / approach).squared() * 0.5 + y[0] * 2.0 + 1.0;
-        let outwards = y[0].constant(0.0).less(approach);
-        S::select(outwards, (y[0].max(y[0] * 0.0) + 1e-4) / (approach * turn), never)
+        S::select(zero.less(approach), (y[0].max(zero) + 1e-4) / (approach * turn), never)
     }
 }
 

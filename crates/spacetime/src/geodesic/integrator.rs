@@ -35,9 +35,11 @@ pub enum Scheme {
 /// through the origin is crossed once, and short enough that few steps are refused.
 const MAX_TURN: f64 = 0.8;
 
-/// A step's error is held to this share of the tolerance, because strong bending multiplies it
-/// later on: the direction of a typical ray then errs by a tenth of the tolerance.
-const STEP_SHARE: f64 = 1.0 / 30.0;
+/// A step's error is held to a share of the tolerance, because strong bending multiplies it
+/// later on. With these the direction of a typical ray errs by a tenth of the tolerance.
+const DOP853_SHARE: f64 = 1.0 / 30.0;
+/// As [`DOP853_SHARE`]: its estimate of a step's error is the more cautious.
+const TSIT5_SHARE: f64 = 1.0 / 6.0;
 
 /// Estimates are this multiple of the drift of conserved quantities, plus a tenth of the
 /// tolerance for what that cannot show: at most one ray in twenty errs by more.
@@ -88,9 +90,10 @@ impl<M: Metric> Integrator<M> {
     pub(super) fn control(&self) -> Control {
         let (tolerance, step) = match self.scheme {
             Scheme::Rk4 { step } => (f64::NAN, step),
-            Scheme::Tsit5 { tolerance } | Scheme::Dop853 { tolerance } => (tolerance, f64::NAN),
+            Scheme::Tsit5 { tolerance } => (TSIT5_SHARE * tolerance, f64::NAN),
+            Scheme::Dop853 { tolerance } => (DOP853_SHARE * tolerance, f64::NAN),
         };
-        Control { tolerance: STEP_SHARE * tolerance, step, max_steps: self.max_steps, max_turn: MAX_TURN }
+        Control { tolerance, step, max_steps: self.max_steps, max_turn: MAX_TURN }
     }
 
     /// From inside the horizon, or next to it, to outside it in ingoing coordinates, then on.
@@ -256,6 +259,7 @@ impl<M: Metric> Tracer for Integrator<M> {
     /// On lanes, but for rays of constant steps, those whose time or points are wanted, and those of cameras inside
     /// the horizon.
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        assert_eq!(rays.len(), paths.len(), "a path for each ray");
         let constant = matches!(self.scheme, Scheme::Rk4 { .. });
         let mut rest = paths;
         for some in rays.chunk_by(|a, b| a.side == b.side) {
@@ -314,7 +318,7 @@ macro_rules! compiled {
 
 // Unit tests need none of them.
 #[cfg(not(test))]
-compiled!(crate::metric::Kerr);
+compiled!(crate::metric::Kerr, crate::metric::Components<crate::metric::Kerr>);
 
 /// How far the conserved quantities, and the chart's own identities |n| = 1 and n·J = 0, have
 /// drifted, relative to their natural sizes.

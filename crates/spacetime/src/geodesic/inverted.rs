@@ -12,7 +12,7 @@
 use super::flow::Flow;
 use crate::metric::{Inverted, Metric};
 use crate::scalar::Scalar;
-use crate::tensor::{dot, each};
+use crate::tensor::{cross, dot, each};
 
 /// Photons of one energy in the inverted chart: the state is (w, n, q, J), and if `D` is 10
 /// T + κ ln w and κ besides.
@@ -53,13 +53,14 @@ impl<M: Metric, S: Scalar> InvertedFlow<M, S> {
         let rate = self.metric.inverted_rate(self.energy, &state);
         let mut slope = pack(&rate);
         if D == TIMED {
-            // dT/dσ = −x·ṗ/w² = −(n·P)/w, where n·P = q′ − n′·p. It is O(w) at an ingoing
-            // ray's infinity, where the quotient's limit is zero, and so is its sum with κ w′/w at
-            // an outgoing ray's.
-            let pull = rate.q - dot(&rate.n, &state.momentum());
-            let zero = state.w.constant(0.0);
-            let at_infinity = state.w.abs().less(state.w.constant(1e-300));
-            slope[8] = S::select(at_infinity, zero, (y[9] * rate.w - pull) / state.w);
+            // dT/dσ = −x·ṗ/w² = −(n·P)/w, where n·P = q′ − n′·p = q′ − w n′·k, for n·n′ = 0; not used is what
+            // within a step would be off by as much as |n| is, over w. The sum with κ w′/w has the limit κ² at
+            // w = 0: zero for light that comes in; for outgoing light t = r + 4 ln r − 8/r and
+            // p_r = E(1 + 4/r + 8/r²), so that T + κ ln w = −4E − 16E w, while w′ = −E. The quotient is
+            // rounding there.
+            let pull = rate.q - state.w * dot(&rate.n, &cross(&state.j, &state.n));
+            let at_infinity = state.w.abs().less(state.w.constant(1e-8));
+            slope[8] = S::select(at_infinity, y[9] * y[9], (y[9] * rate.w - pull) / state.w);
         }
         slope
     }

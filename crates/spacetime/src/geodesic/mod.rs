@@ -120,9 +120,27 @@ pub trait Tracer: Send + Sync {
 
     /// Follows many rays and replaces as many paths: faster where vector instructions help. A ray's path
     /// does not depend on the rays beside it.
+    ///
+    /// # Panics
+    /// If there are not as many paths as rays.
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        assert_eq!(rays.len(), paths.len(), "a path for each ray");
         for (ray, path) in rays.iter().zip(paths) {
             self.trace(ray, query, path);
         }
+    }
+}
+
+impl<T: Tracer + ?Sized> Tracer for Box<T> {
+    fn name(&self) -> &'static str {
+        (**self).name()
+    }
+
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        (**self).trace(ray, query, path);
+    }
+
+    fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
+        (**self).trace_all(rays, query, paths);
     }
 }

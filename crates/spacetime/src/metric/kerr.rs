@@ -176,9 +176,10 @@ impl Metric for Kerr {
     ///   q′ = w n′·k + n·P
     ///   J′ = s w Fℓŵ ẑ×J + s² w {(Fℓŵ/r̂)(p_z n + n_z p) + n_z [K̂/(r̂Σ̂) − Fℓ²/(r̂²Σ̂)] n} × ẑ
     /// with ŵ = 1/(r̂² + ŝ²) and
-    ///   n·P = K̂ n·∇r̂ + Fℓ(ℓ − E) − Fℓ² ŝ² n_z²/(r̂²Σ̂),   n·∇r̂ = (r̂/Σ̂)(1 + ŝ² n_z²/r̂²).
+    ///   n·P = K̂ n·∇r̂ + Fℓ(ℓ − E) − Fℓ² ŝ² n_z²/(r̂²Σ̂),   n·∇r̂ = (r̂/Σ̂)(|n|² + ŝ² n_z²/r̂²).
     /// Any c leaves x = n/w unchanged. With this one an error in |n| would grow around a photon
-    /// orbit; multiplied by 3 − 2|n|², which is one, it decays.
+    /// orbit; multiplied by 3 − 2|n|², which is one, it decays. |n|² in n·∇r̂ keeps the slope of elapsed time, where n·P
+    /// is divided by w, from an error in |n| of first order.
     #[inline(always)]
     fn inverted_rate<S: Scalar>(&self, energy: S, state: &Inverted<S>) -> Inverted<S> {
         let Inverted { w, n, q, j } = *state;
@@ -193,7 +194,8 @@ impl Metric for Kerr {
         let f = field.r * field.inverse_sigma * 2.0;
         let drift = f * l;
         let radial = f * along_r;
-        let lengthening = drift * dot(&n, &field.l) * dot(&n, &n).mul_add(w.constant(-2.0), w.constant(3.0));
+        let square = dot(&n, &n);
+        let lengthening = drift * dot(&n, &field.l) * square.mul_add(w.constant(-2.0), w.constant(3.0));
         let turn: Vec3<S> = each(
             #[inline(always)]
             |i| n[i].mul_add(lengthening, (-drift).mul_add(field.l[i], k[i])),
@@ -202,7 +204,7 @@ impl Metric for Kerr {
         let flattening = height.squared();
         let oblate = drift * l * field.inverse_sigma;
         let inwards = radial * field.inverse_sigma;
-        let level = (inwards * field.r).mul_add(flattening + 1.0, drift * (l - energy));
+        let level = (inwards * field.r).mul_add(flattening + square, drift * (l - energy));
         let pull = flattening.mul_add(-oblate, level);
         // Frame dragging turns J about z; oblateness tilts it.
         let whirl = drift * field.weight;

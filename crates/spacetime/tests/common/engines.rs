@@ -17,7 +17,7 @@ pub fn closed(spin: f64, ray: &Ray, query: &Query) -> Path {
 /// What the integrator finds at its tightest.
 pub fn integrated(spin: f64, ray: &Ray) -> Path {
     let scheme = Scheme::Dop853 { tolerance: 1e-14 };
-    follow(&Integrator::new(Kerr::new(spin), scheme, 100_000), ray, &TIMED)
+    follow(&Integrator::new(Kerr::new(spin), scheme, 100_000).boxed(), ray, &TIMED)
 }
 
 /// The ray of an observer of no angular momentum that looks along a direction (outwards, along θ, along φ).

@@ -5,6 +5,7 @@
 //! smooth across the axis and once around.
 
 use crate::disk::Plane;
+use crate::render::tally::worse;
 use crate::sky::towards;
 use crate::spacetime::geodesic::{Fate, Path};
 use crate::spacetime::tensor::dot;
@@ -103,8 +104,6 @@ pub(super) fn difference(kind: Kind, exact: &[f64], found: &[f64]) -> f64 {
     let radius = |first: usize| (exact[first] / found[first] - 1.0).abs();
     let crossings = (0..kind.crossings()).map(|k| CROSSING * k);
     let errors = crossings.flat_map(|first| [radius(first), angle(first + 1, 2)]);
-    // What is not a number is no small error.
-    let worse = |worst: f64, error: f64| if error <= worst { worst } else { error };
     errors.chain(kind.direction().map(|first| angle(first, 3))).fold(0.0, worse)
 }
 

@@ -61,8 +61,8 @@ pub(super) fn draw(
 ) -> Vec<Light> {
     let (least, edge) = (least_edge(stage.samples()), tile_edge(stage.samples()));
     let spacing = f64::from(least) / f64::from(LEAST);
-    // Spacings of the mesh in so many pixels.
-    let spacings = |pixels: u32| pixels * LEAST / least;
+    // Spacings of the mesh that cover so many pixels.
+    let spacings = |pixels: u32| (pixels * LEAST).div_ceil(least);
     let root = Cell { corner: [0, 0], edge: spacings(edge) };
     let mut mesh = Mesh::new([area.left, area.top], spacing, root.edge + 1);
     let limits = [area.width, area.height].map(spacings);
@@ -91,8 +91,5 @@ pub(super) fn draw(
             light[(y * area.width + x) as usize] = seen;
         }
     });
-    // These are traced, so that there is nothing to compare.
-    let audited = rough().map(|pixel| stage.audit().samples(stage.number(place(pixel))).count() as u64);
-    tally.interpolation.compared += audited.sum::<u64>();
     light
 }

@@ -4,7 +4,7 @@ use super::knot::{Kind, difference};
 use super::mesh::{Mesh, Point};
 use super::patch::{Evaluate, Patch};
 use crate::render::stage::{Replay, Stage};
-use crate::render::tally::Tally;
+use crate::render::tally::{Tally, worse};
 
 /// A square of a mesh.
 #[derive(Clone, Copy, Debug)]
@@ -137,8 +137,7 @@ impl<'a> Judge<'a> {
             self.found.extend((0..numbers).map(|n| self.values[n * count + point]));
             let knot = mesh.knot([left + j * step, top + i * step]);
             let error = difference(kind, mesh.knots.numbers(knot), &self.found);
-            // What is not a number is no small error.
-            worst = if error <= worst { worst } else { error };
+            worst = worse(worst, error);
         }
         worst
     }

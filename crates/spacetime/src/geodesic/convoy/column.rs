@@ -119,6 +119,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
         R: Method<STAGES>,
     {
         let control = task.integrator.control();
+        let mut stages = [gather(simd, &self.rays.slope); STAGES];
         loop {
             self.fill::<L, S, M>(simd, task);
             if self.busy == 0 {
@@ -128,7 +129,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
             let result = &mut outcome;
             simd.vectorize(
                 #[inline(always)]
-                || *result = self.attempt::<L, S, M, R>(simd, task, &control),
+                || *result = self.attempt::<L, S, M, R>(simd, task, &control, &mut stages),
             );
             self.see::<L, S, M, R>(simd, task, &control, outcome);
         }
@@ -195,9 +196,15 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
         waiting.slope = scatter(&slope);
     }
 
-    /// Tries a step in every lane.
+    /// Tries a step in every lane. `stages` is a place for the method's slopes.
     #[inline(always)]
-    fn attempt<L, S, M, R>(&mut self, simd: L, task: &Task<'_, M>, control: &Control) -> Outcome
+    fn attempt<L, S, M, R>(
+        &mut self,
+        simd: L,
+        task: &Task<'_, M>,
+        control: &Control,
+        stages: &mut [[S; D]; STAGES],
+    ) -> Outcome
     where
         L: Simd,
         S: Rank<L, W>,
@@ -212,8 +219,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Column<D, STAGES, W> {
         let h =
             S::gather(simd, &rays.h).min(flow.step_for(&y, control.max_turn)).min(flow.way_out(&y, &slope));
         let (zero, one) = (h.constant(0.0), h.constant(1.0));
-        let mut stages = [slope; STAGES];
-        let step = R::step(&flow, &y, &mut stages, h);
+        stages[0] = slope;
+        let step = R::step(&flow, &y, stages, h);
         let end_slope = match step.end_slope {
             Some(slope) => slope,
             None => flow.derivative(&step.end),

@@ -50,6 +50,13 @@ pub struct Events<const D: usize, const STAGES: usize, const W: usize> {
     count: usize,
 }
 
+/// A step that begins in the plane, or dips through it.
+struct Dip<const D: usize> {
+    lane: usize,
+    dense: Dense<f64, D>,
+    heading: Vec3<f64>,
+}
+
 /// What is found within the steps.
 struct Found<const D: usize, const W: usize> {
     /// The state where it happens.
@@ -58,6 +65,8 @@ struct Found<const D: usize, const W: usize> {
     swept: [f64; W],
     /// Where it happens before infinity, and outside the horizon.
     outside: u64,
+    /// Steps, which are rare, to be looked into one by one.
+    dips: Vec<Dip<D>>,
 }
 
 impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
@@ -92,7 +101,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         if self.count == 0 {
             return;
         }
-        let mut found = Found { y: [[0.0; W]; D], swept: [0.0; W], outside: 0 };
+        let mut found = Found { y: [[0.0; W]; D], swept: [0.0; W], outside: 0, dips: Vec::new() };
         let (this, result) = (&*self, &mut found);
         simd.vectorize(
             #[inline(always)]
@@ -103,19 +112,18 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             let step_swept = found.swept[lane];
             let swept = self.record.swept[lane] + task.corrections[ray] + step_swept;
             let y = found.y.each_ref().map(|column| column[lane]);
-            match kind {
-                Kind::Crosses => {
+            let dip = found.dips.iter().find(|dip| dip.lane == lane);
+            match (kind, dip) {
+                (Kind::Crosses | Kind::Grazes, Some(dip)) => self.dip(dip, task),
+                (Kind::Crosses, None) => {
                     // A ray that ends within the horizon has crossed it by then.
-                    if y[0] > 0.0
-                        && (!falls || found.outside >> lane & 1 != 0)
-                        && !self.starts_in_plane(task, lane)
-                    {
+                    if y[0] > 0.0 && (!falls || found.outside >> lane & 1 != 0) {
                         task.meet(ray, &y, swept);
                     }
                 }
-                Kind::Leaves => task.conclude(ray, &End { stop: Stop::Left, y, swept, steps }),
-                Kind::Turns => task.corrections[ray] += step_swept - self.record.turn[lane],
-                Kind::Grazes => {}
+                (Kind::Leaves, _) => task.conclude(ray, &End { stop: Stop::Left, y, swept, steps }),
+                (Kind::Turns, _) => task.corrections[ray] += step_swept - self.record.turn[lane],
+                (Kind::Grazes, None) => {}
             }
         }
         self.count = 0;
@@ -129,9 +137,9 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         bits
     }
 
-    /// Finds where it happens. Steps that begin in the plane, or dip through it, which are rare, are reported at once.
+    /// Finds where it happens. Steps that begin in the plane, or dip through it, are kept.
     #[inline(always)]
-    fn look<L, S, M, R>(&self, simd: L, task: &mut Task<'_, M>, found: &mut Found<D, W>)
+    fn look<L, S, M, R>(&self, simd: L, task: &Task<'_, M>, found: &mut Found<D, W>)
     where
         L: Simd,
         S: Rank<L, W>,
@@ -172,7 +180,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             let kind = self.waiting[lane].kind;
             if kind == Kind::Grazes || kind == Kind::Crosses && self.starts_in_plane(task, lane) {
                 let heading = [heading[0].lane(lane), heading[1].lane(lane), heading[2].lane(lane)];
-                self.dip(&dense.lane(lane), &heading, lane, task);
+                found.dips.push(Dip { lane, dense: dense.lane(lane), heading });
             }
         }
     }
@@ -218,13 +226,9 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
     }
 
     /// Steps that begin in the plane, or dip through it: one by one.
-    fn dip<M: Metric>(
-        &self,
-        dense: &Dense<f64, D>,
-        heading: &Vec3<f64>,
-        lane: usize,
-        task: &mut Task<'_, M>,
-    ) {
+    fn dip<M: Metric>(&self, dip: &Dip<D>, task: &mut Task<'_, M>) {
+        let Dip { lane, dense, heading } = dip;
+        let lane = *lane;
         let Event { ray, falls, .. } = self.waiting[lane];
         let plane = task.query.plane;
         let height = |y: &[f64; D]| dot(&inverted_place(y), &plane);

@@ -65,8 +65,9 @@ impl<M: Metric> OnLanes for Task<'_, M> {
 
     #[inline(always)]
     fn run<L: Simd>(mut self, simd: L) {
-        // Where eight numbers are one register, two of them fill the processor better.
-        if const { size_of::<L::f64s>() == 64 } {
+        // Where eight numbers are one register, two of them fill the processor better, unless equations are so long
+        // that they fill all registers.
+        if const { size_of::<L::f64s>() == 64 && M::PASSES_INFINITY } {
             self.follow::<L, Pair<Lanes<L>>, 16>(simd);
         } else {
             self.follow::<L, Lanes<L>, 8>(simd);
