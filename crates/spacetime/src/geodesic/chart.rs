@@ -98,7 +98,8 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
         let j = [y[5], y[6], y[7]];
         y[0].constant(angle) / (dot(&j, &j).sqrt() + self.energy.abs() + y[4].abs() * y[0])
     }
-    /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it.
+    /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it. A photon that has more than
+    /// an eighth of a turn to go does not get there in one step.
     #[inline(always)]
     fn way_out(&self, y: &[S; D], slope: &[S; D]) -> S {
         let (zero, never) = (y[0].constant(0.0), y[0].constant(f64::INFINITY));
@@ -106,9 +107,10 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
             return never;
         }
         let j = [y[5], y[6], y[7]];
-        let approach = -slope[0];
-        let turn = dot(&j, &j) * (y[0] / approach).squared() * 0.5 + y[0] * 2.0 + 1.0;
-        S::select(zero.less(approach), (y[0].max(zero) + 1e-4) / (approach * turn), never)
+        let (approach, across) = (-slope[0], dot(&j, &j) * y[0] * y[0]);
+        let turn = across / approach.squared() * 0.5 + y[0] * 2.0 + 1.0;
+        let near = across.less(approach * approach.abs());
+        S::select(near, (y[0].max(zero) + 1e-4) / (approach * turn), never)
     }
 }
 
