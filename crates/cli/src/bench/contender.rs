@@ -18,7 +18,7 @@ pub struct Contender {
     pub method: &'static str,
     pub tolerance: Option<f64>,
     pub level: Level,
-    /// Only one ray in so many is followed, for it takes long.
+    /// Of the whole course only one ray in so many is followed, for it takes long.
     pub one_in: usize,
     pub tracer: Box<dyn Tracer>,
 }
