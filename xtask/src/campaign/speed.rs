@@ -85,11 +85,11 @@ fn bench(program: &Path, root: &Path, body: &mut String) -> Result<(), String> {
         let tolerance = row["tolerance"].as_f64().map_or_else(|| "–".to_owned(), |t| format!("{t:.0e}"));
         let _ = writeln!(
             body,
-            "| {} | {} | {tolerance} | {} | {:.2} M | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.2} | {} |",
+            "| {} | {} | {tolerance} | {} | {:.1} k | {:.1e} | {:.1e} | {:.1e} | {:.1e} | {:.2} | {} |",
             word("engine"),
             word("method"),
             word("simd"),
-            number("rays_per_cpu_s") * 1e-6,
+            number("rays_per_cpu_s") * 1e-3,
             number("sky_error_median"),
             number("sky_error_max"),
             number("radius_error_median"),
