@@ -8,11 +8,6 @@
 //!                                  libFuzzer on what reads files, 10 minutes a target
 //!     cargo xtask sky-data FOLDER  data of the sky again; see crates/kerrscope/data/README.md
 
-mod campaign;
-mod fuzz;
-mod pictures;
-mod sky_data;
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -25,10 +20,7 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["test"] => test(),
         ["check"] => check(),
-        ["pictures"] => pictures::draw(&root()),
-        ["campaign", name] => campaign::run(&root(), name),
-        ["fuzz", ref words @ ..] => fuzz::run(&root(), words),
-        ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
+        ["pictures" | "campaign" | "fuzz" | "sky-data", ..] => chores(&words),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {
@@ -43,6 +35,12 @@ fn main() -> ExitCode {
 /// The repository's root folder.
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+}
+
+/// What needs the library is in a crate of its own, so that `test` and `check` build nothing before they begin.
+fn chores(words: &[&str]) -> Result<(), String> {
+    let cargo_run = ["run", "--quiet", "--release", "--locked", "--package", "kerrscope-chores", "--"];
+    cargo(&[&cargo_run[..], words].concat(), &[])
 }
 
 /// Unit, integration and documentation tests. Where there is a Python, those that compare with other
