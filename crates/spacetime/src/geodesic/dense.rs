@@ -62,6 +62,32 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
         y
     }
 
+    /// The coefficients of one component in Bernstein's basis of degree 7, B₀ … B₇ over the step: Horner's rule from
+    /// the innermost term out, with θ B_k^d = (k+1)/(d+1) B_{k+1}^{d+1} and (1−θ) B_k^d = (d+1−k)/(d+1) B_k^{d+1}. It
+    /// adds and multiplies by shares alone, so that nothing is lost to cancellation.
+    pub(super) fn bernstein(&self, i: usize) -> [S; 8] {
+        let mut b = [self.start[i].constant(0.0); 8];
+        // The terms that a lower method does without are zero.
+        for n in (0..7).rev() {
+            let degree = 6 - n;
+            for k in 0..=degree {
+                b[k] += self.terms[n][i];
+            }
+            let share = 1.0 / (degree + 1) as f64;
+            if n % 2 == 0 {
+                for k in (0..=degree).rev() {
+                    b[k + 1] = b[k] * ((k + 1) as f64 * share);
+                }
+                b[0] = self.start[i].constant(0.0);
+            } else {
+                for k in 0..=degree {
+                    b[k] = b[k] * ((degree + 1 - k) as f64 * share);
+                }
+            }
+        }
+        b.map(|c| c + self.start[i])
+    }
+
     /// The sum of the first components, each times its weight.
     #[inline(always)]
     pub(super) fn weighted<const N: usize>(&self, weights: &[S; N]) -> Dense<S, 1> {
