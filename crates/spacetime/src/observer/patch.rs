@@ -29,6 +29,8 @@ pub struct Patch {
     axes: [Vec4<f64>; 4],
     /// The same with lower indices.
     lowered: [Vec4<f64>; 4],
+    /// ∂ᵢf of each.
+    slopes: Vec4<f64>,
 }
 
 impl Patch {
@@ -82,7 +84,12 @@ impl Patch {
         let [e1, e2] = within(&g, &u, &e3, &gradient);
         let axes = [u, e1, e2, e3];
         let good = axes.iter().flatten().all(|c| c.is_finite());
-        good.then(|| Self { position, axes, lowered: axes.map(|v| contract(&g, &v)) })
+        good.then(|| Self {
+            position,
+            axes,
+            lowered: axes.map(|v| contract(&g, &v)),
+            slopes: axes.map(|v| x * v[1] + y * v[2] + z * v[3]),
+        })
     }
 
     /// The place in the chart, M.
@@ -97,6 +104,12 @@ impl Patch {
         let frequency = -pair(&p, &self.axes[0]);
         let along = |k: usize| pair(&p, &self.axes[k]) / frequency;
         (frequency, [along(1), along(2), along(3)])
+    }
+
+    /// How fast a reversed photon that leaves along (e₁, e₂, e₃) gets out of the surface as the coordinates have it, where it
+    /// stays: negative if it gets in. Of a surface at rest the sign is that of the third component.
+    pub fn climb(&self, [a, b, c]: &Vec3<f64>) -> f64 {
+        pair(&self.slopes, &[1.0, *a, *b, *c])
     }
 
     /// The reversed photon that leaves along (e₁, e₂, e₃) times the components of a unit vector, with frequency 1.
