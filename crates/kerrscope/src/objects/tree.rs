@@ -92,7 +92,8 @@ impl Tree {
             let tiny = 1e-290_f64;
             (if c.abs() < tiny { tiny.copysign(c) } else { c }).recip()
         });
-        let mut until = chord.until;
+        // A box that is not met is infinitely far away, and farther than anything.
+        let mut until = chord.until.min(f64::MAX);
         let mut stack = [(0_u32, 0.0_f64); DEEPEST];
         let mut height = 0;
         let (mut own, mut near) = (0_usize, enter(&self.nodes[0].bounds, chord, &inverse));
@@ -220,6 +221,23 @@ mod tests {
             expected.sort_unstable();
             assert_eq!(found, expected);
         }
+    }
+
+    #[test]
+    fn boxes_far_from_a_line_without_end_are_not_looked_at() {
+        let all = boxes(2000);
+        let tree = Tree::new(&all);
+        let mut seen = 0;
+        for k in 0..100 {
+            let origin = [number(k) * 10.0, number(k + 100) * 10.0, -1.0];
+            let chord = Chord { origin, direction: [0.0, 0.0, 1.0], until: f64::INFINITY, margin: 0.0 };
+            tree.visit(&chord, |_, _| {
+                seen += 1;
+                None
+            });
+        }
+        // A line meets about 2000 · (0.1 + 0.1)²/10² of boxes 0.1 large, and looks at some more.
+        assert!(seen < 100 * 20, "{seen}");
     }
 
     #[test]
