@@ -150,6 +150,44 @@ fn an_integrating_sphere_is_as_bright_as_it_should_be() {
     converges(&text, exact, &[4, 16, 64, 256]);
 }
 
+/// Surfaces with nothing in them: where two pass through one another the nearer one is seen, and from within a sphere its
+/// inside, up to a thing that comes first.
+#[test]
+fn things_may_overlap_and_hold_the_camera() {
+    let text = format!(
+        "{FLAT}observer.position = [0, -10, 0]\nscreen = {{ field_of_view = 40, look_at = [0, 0, 0] }}\n\
+         render = {{ width = 90, height = 60, layers = [\"fate\", \"depth\", \"sky_theta\"] }}\nobject = [\n\
+         {{ center = [-0.5, 0, 0], radius = 1.5, material = \"light\", color = [1, 0, 0] }},\n\
+         {{ center = [0.5, 0, 0], radius = 1.5, material = \"light\", color = [0, 1, 0] }},\n\
+         {{ center = [0, 0, 0], radius = 20, material = \"light\", color = [0, 0, 1] }},\n]"
+    );
+    let film = film(&text);
+    let [fate, depth, theta] =
+        [0, 1, 2].map(|k| film.planes[k].values.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
+    let mut seen = [0; 3];
+    for (k, light) in film.light.iter().enumerate() {
+        let (x, y) = (k % 90, k / 90);
+        let right = (x as f64 + 0.5 - 45.0) / 30.0 * 20_f64.to_radians().tan();
+        let up = (30.0 - y as f64 - 0.5) / 30.0 * 20_f64.to_radians().tan();
+        let v = unit([right, 1.0, up]);
+        // The first of the balls, or the shell from within.
+        let first = |center: f64, radius: f64| {
+            let o = [-center, -10.0, 0.0];
+            let (along, square) = (dot(&o, &v), dot(&o, &o) - radius * radius);
+            let root = (along * along - square).sqrt();
+            if square > 0.0 { -along - root } else { -along + root }
+        };
+        let distances = [first(-0.5, 1.5), first(0.5, 1.5), first(0.0, 20.0)];
+        let nearest = distances.iter().copied().filter(|d| !d.is_nan()).fold(f64::INFINITY, f64::min);
+        assert!((depth[k] / nearest - 1.0).abs() < 1e-6, "{x} {y} {} {nearest}", depth[k]);
+        assert!(fate[k] == 3.0 && theta[k].is_nan());
+        let color = (0..3).find(|c| distances[*c] == nearest).unwrap();
+        // All samples of the pixel see the same but at edges.
+        seen[color] += usize::from(light[color] == 1.0);
+    }
+    assert!(seen[0] > 200 && seen[1] > 200 && seen[2] > 3000, "{seen:?}");
+}
+
 /// Too few bounces make it darker, by what is missing: the geometric series is cut.
 #[test]
 fn a_bounce_limit_cuts_the_series() {

@@ -82,34 +82,25 @@ impl World {
         found
     }
 
-    /// What a bent ray meets first.
+    /// What a bent ray meets first: θ and its number.
     ///
     /// A step is halved until its pieces are nearly straight, or past everything. The things near a piece's chord are then
     /// compared with the curve itself.
-    fn along_curve(&self, curve: &Curve) -> Option<(f64, usize)> {
-        let mut rest = [(*curve, 0.0, 0); MOST_HALVINGS as usize + 2];
-        let mut height = 1;
-        while height > 0 {
-            height -= 1;
-            let (curve, start, depth) = rest[height];
-            let width = 1.0 / (1_u64 << depth) as f64;
-            let met = match Piece::of(&curve, &self.bounds, self.grain) {
-                Course::Past => None,
-                Course::Unclear if depth < MOST_HALVINGS => {
-                    let (before, after) = curve.split(0.5);
-                    rest[height] = (after, start + 0.5 * width, depth + 1);
-                    rest[height + 1] = (before, start, depth + 1);
-                    height += 2;
-                    None
-                }
-                Course::Unclear => self.in_piece(&Piece::anywhere(curve)),
-                Course::Near(piece) => self.in_piece(&piece),
-            };
-            if let Some((theta, number)) = met {
-                return Some((start + width * theta, number));
+    fn along_curve(&self, curve: &Curve, halvings: u32) -> Option<(f64, usize)> {
+        match Piece::of(curve, &self.bounds, self.grain) {
+            Course::Past => None,
+            Course::Near(piece) => self.in_piece(&piece),
+            Course::Unclear if halvings == MOST_HALVINGS => self.in_piece(&Piece::anywhere(*curve)),
+            Course::Unclear => {
+                let (before, after) = curve.split(0.5);
+                let half = |(theta, number)| (0.5 * theta, number);
+                let first = self.along_curve(&before, halvings + 1).map(half);
+                first.or_else(|| {
+                    let (theta, number) = self.along_curve(&after, halvings + 1).map(half)?;
+                    Some((0.5 + theta, number))
+                })
             }
         }
-        None
     }
 
     fn in_piece(&self, piece: &Piece) -> Option<(f64, usize)> {
@@ -142,7 +133,7 @@ impl Obstacles for World {
     fn first(&self, segment: &Segment) -> Option<(f64, usize)> {
         match segment {
             Segment::Line(line) => self.along(line),
-            Segment::Curve(curve) => self.along_curve(curve),
+            Segment::Curve(curve) => self.along_curve(curve, 0),
         }
     }
 }
