@@ -154,7 +154,7 @@ fn rays_meet_balls_at_the_same_places_at_two_tolerances() {
     let [loose, tight] = [1e-9, 1e-10];
     let (coarse, fine) = (tracer(loose), tracer(tight));
     let (mut a, mut b) = (Path::default(), Path::default());
-    let (mut off, mut compared) = (Vec::new(), 0);
+    let (mut off, mut compared, mut beyond) = (Vec::new(), 0, 0);
     for k in 0..10_000 {
         if compared == 1000 {
             break;
@@ -175,14 +175,15 @@ fn rays_meet_balls_at_the_same_places_at_two_tolerances() {
         let cos = dot(&normal, &q.momentum).abs() / length;
         let r = dot(&q.position, &q.position).sqrt();
         off.push(dot(&apart, &apart).sqrt() * cos / r);
+        beyond += i32::from(off[off.len() - 1] > a.error_estimate + b.error_estimate);
         compared += 1;
     }
     assert_eq!(compared, 1000);
     off.sort_unstable_by(f64::total_cmp);
-    println!("{:e} {:e} {:e}", off[500], off[900], off[999]);
-    // A typical error is a tenth of the tolerance, which is the tighter one's bound; next to the critical curve it is larger.
-    assert!(off[500] < tight && off[900] < 3.0 * tight, "{:e} {:e} {:e}", off[500], off[900], off[999]);
-    assert!(off[999] < 1e4 * tight, "{:e}", off[999]);
+    // A typical error is a tenth of the tolerance, so that of the looser one is the tighter one's bound.
+    assert!(off[500] < tight && off[900] < 2.0 * tight, "{:e} {:e}", off[500], off[900]);
+    // Next to the critical curve errors grow, as each ray's own estimate says.
+    assert!(off[999] < 100.0 * tight && beyond < 50, "{:e} {beyond}", off[999]);
 }
 
 #[test]

@@ -162,7 +162,7 @@ fn things_may_overlap_and_hold_the_camera() {
          {{ center = [0, 0, 0], radius = 20, material = \"light\", color = [0, 0, 1] }},\n]"
     );
     let film = film(&text);
-    let [fate, depth, theta] =
+    let [fate, theta, depth] =
         [0, 1, 2].map(|k| film.planes[k].values.iter().map(|v| f64::from(*v)).collect::<Vec<_>>());
     let mut seen = [0; 3];
     for (k, light) in film.light.iter().enumerate() {

@@ -170,7 +170,7 @@ fn things_where_none_can_be() {
     scene(&ball(kerr, [0.0, 3.2, 0.0], 1.2, "[0, 0, 0]"));
     refused(
         &ball(kerr, [0.0, 3.2, 0.0], 1.7, "[0, 0, 0]"),
-        "the thing reaches down to r = 1.2 M, and things have to be outside of r = 1.57948 M, 1.1 horizon radii",
+        "the thing reaches down to r = 1.200001 M, and things have to be outside of r = 1.579479 M, 1.1 horizon radii",
         "move it outwards",
     );
     refused(&ball(kerr, [0.0, 0.0, 0.5], 0.1, "[0, 0, 0]"), "reaches down to", "move it outwards");
