@@ -159,7 +159,7 @@ impl<M: Metric> Integrator<M> {
             (Scheme::Tsit5 { .. }, false) => self.follow_inverted::<Tsit5, PLAIN, 6>(ray, query, way, path),
             (Scheme::Tsit5 { .. }, true) => self.follow_inverted::<Tsit5, TIMED, 6>(ray, query, way, path),
             (Scheme::Dop853 { .. }, false) => {
-                self.follow_inverted::<Dop853, PLAIN, 12>(ray, query, way, path)
+                self.follow_inverted::<Dop853, PLAIN, 12>(ray, query, way, path);
             }
             (Scheme::Dop853 { .. }, true) => self.follow_inverted::<Dop853, TIMED, 12>(ray, query, way, path),
         }

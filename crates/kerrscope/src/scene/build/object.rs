@@ -16,8 +16,9 @@ use crate::scene::valid::{Object, ObjectPattern, Spacetime};
 /// The most things in a scene.
 const MOST: usize = 100_000;
 
-/// Where no static limit, no horizon and no circular photon orbit is: √(r² + a²) with r = 4, and more.
-const FAR: f64 = 4.2;
+/// Distance from the origin, in M, beyond which neither the static limit (r ≤ 2) nor 1.1 horizons (r ≤ 2.2) can be:
+/// √(2.2² + 1) and more.
+const FAR: f64 = 2.5;
 
 impl Builder<'_> {
     pub(super) fn objects(&mut self, all: &[file::Object], spacetime: Spacetime) -> Vec<Object> {
