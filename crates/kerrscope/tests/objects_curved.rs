@@ -3,6 +3,7 @@
 mod common;
 
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 use common::{converges, film, linear, ray, scene, stage};
 use kerrscope::camera::Camera;
@@ -140,7 +141,7 @@ fn balls() -> String {
         let (sin, cos) = angle.sin_cos();
         let size = [1.5, 2.0, 1.0, 0.5][k as usize % 4];
         let center = [8.0 * cos, 8.0 * sin, height];
-        text += &format!("{{ center = {center:?}, radius = {size:?}, color = [0.8, 0.5, 0.2] }},\n");
+        let _ = writeln!(text, "{{ center = {center:?}, radius = {size:?}, color = [0.8, 0.5, 0.2] }},");
     }
     text + "{ center = [0, 0, 9], radius = 2, material = \"light\", brightness = 5 }]"
 }

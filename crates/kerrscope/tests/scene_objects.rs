@@ -1,5 +1,6 @@
 //! Things in scenes: their keys, and what cannot be.
 
+use std::fmt::Write;
 use std::path::Path;
 
 use kerrscope::material::Finish;
@@ -219,9 +220,11 @@ fn what_does_not_go_with_things() {
 #[test]
 fn a_hundred_thousand_things_and_no_more() {
     let text = |count: usize| {
-        let lines: String = (0..count)
-            .map(|k| format!("{{ center = [{}, {}, {}], radius = 0.2 }},\n", k / 1000, 9 + k % 1000, 50))
-            .collect();
+        let mut lines = String::new();
+        for k in 0..count {
+            let (x, y) = (k / 1000, 9 + k % 1000);
+            let _ = writeln!(lines, "{{ center = [{x}, {y}, 50], radius = 0.2 }},");
+        }
         format!("object = [\n{lines}]\n")
     };
     assert_eq!(scene(&text(100_000)).objects.len(), 100_000);

@@ -106,7 +106,7 @@ impl Flat {
     }
 
     /// The first θ at which the curve passes through: N·X − N·c W = 0, a polynomial of degree 7.
-    pub(super) fn meets_piece(&self, piece: &Piece) -> Option<f64> {
+    pub(super) fn meets_piece(&self, piece: &Piece<'_>) -> Option<f64> {
         let height = dot(&self.normal, &self.origin);
         let b: [f64; 8] = std::array::from_fn(|k| {
             let [x, y, z, w] = piece.curve.points[k];

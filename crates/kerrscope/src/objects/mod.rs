@@ -51,7 +51,7 @@ impl Shape {
     }
 
     /// Where a piece of a bent ray meets it first.
-    fn meets_piece(&self, piece: &Piece) -> Option<f64> {
+    fn meets_piece(&self, piece: &Piece<'_>) -> Option<f64> {
         match self {
             Self::Sphere(sphere) => sphere.meets_piece(piece),
             Self::Flat(flat) => flat.meets_piece(piece),

@@ -7,22 +7,22 @@ use crate::spacetime::tensor::{Vec3, dot};
 
 /// A piece of a bent ray, and a straight line that it is near to.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Piece {
+pub(super) struct Piece<'a> {
     /// The curve.
-    pub(super) curve: Curve,
+    pub(super) curve: &'a Curve,
     /// From end to end. All of the curve is within the margin: it lies in the hull of its control points (their weights
     /// being positive), and so does what is near the line.
     pub(super) chord: Chord,
 }
 
 /// What a curve is to a box.
-pub(super) enum Course {
+pub(super) enum Course<'a> {
     /// It passes it by.
     Past,
     /// It is too bent, or reaches too far, to say: look at its halves.
     Unclear,
     /// It is near enough to a straight line.
-    Near(Piece),
+    Near(Piece<'a>),
 }
 
 /// A piece may bend by this share of its length.
@@ -31,9 +31,9 @@ const BEND: f64 = 1.0 / 16.0;
 /// The weights of a piece may differ by this factor.
 const SPREAD: f64 = 8.0;
 
-impl Piece {
+impl<'a> Piece<'a> {
     /// How a curve passes a box, in which the finest things are about `grain` large.
-    pub(super) fn of(curve: &Curve, bounds: &Bounds, grain: f64) -> Course {
+    pub(super) fn of(curve: &'a Curve, bounds: &Bounds, grain: f64) -> Course<'a> {
         if is_beside(curve, bounds) {
             return Course::Past;
         }
@@ -65,14 +65,11 @@ impl Piece {
         }
         // The margin's own rounding is far below a billionth.
         let margin = margin * (1.0 + 1e-9) + 1e-12 * bounds.reach();
-        Course::Near(Self {
-            curve: *curve,
-            chord: Chord { origin: places[0], direction, until: 1.0, margin },
-        })
+        Course::Near(Self { curve, chord: Chord { origin: places[0], direction, until: 1.0, margin } })
     }
 
     /// A curve of which nothing more is known.
-    pub(super) fn anywhere(curve: Curve) -> Self {
+    pub(super) fn anywhere(curve: &'a Curve) -> Self {
         let direction = [1.0, 0.0, 0.0];
         Self { curve, chord: Chord { origin: [0.0; 3], direction, until: 1.0, margin: f64::MAX } }
     }

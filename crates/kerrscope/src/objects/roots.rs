@@ -96,9 +96,9 @@ fn only<const N: usize>(b: &[f64; N]) -> f64 {
             return theta;
         }
         if (value > 0.0) == falling {
-            low = theta
+            low = theta;
         } else {
-            high = theta
+            high = theta;
         }
         let newton = theta - value / slope;
         // Also what is not a number.

@@ -65,7 +65,7 @@ impl Sphere {
     }
 
     /// The first θ at which the curve passes through: |X − c W|² − R²W² = 0, a polynomial of degree 14.
-    pub(super) fn meets_piece(&self, piece: &Piece) -> Option<f64> {
+    pub(super) fn meets_piece(&self, piece: &Piece<'_>) -> Option<f64> {
         if piece.is_off(&self.center, self.radius) {
             return None;
         }

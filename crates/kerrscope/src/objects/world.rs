@@ -90,7 +90,7 @@ impl World {
         match Piece::of(curve, &self.bounds, self.grain) {
             Course::Past => None,
             Course::Near(piece) => self.in_piece(&piece),
-            Course::Unclear if halvings == MOST_HALVINGS => self.in_piece(&Piece::anywhere(*curve)),
+            Course::Unclear if halvings == MOST_HALVINGS => self.in_piece(&Piece::anywhere(curve)),
             Course::Unclear => {
                 let (before, after) = curve.split(0.5);
                 let half = |(theta, number)| (0.5 * theta, number);
@@ -103,7 +103,7 @@ impl World {
         }
     }
 
-    fn in_piece(&self, piece: &Piece) -> Option<(f64, usize)> {
+    fn in_piece(&self, piece: &Piece<'_>) -> Option<(f64, usize)> {
         let mut found: Option<(f64, usize)> = None;
         self.tree.visit(&piece.chord, |number, _| {
             if let Some(theta) = self.shapes[number].meets_piece(piece)

@@ -186,7 +186,7 @@ impl Builder<'_> {
         let Some(spin) = spacetime.spin() else { return Some(drift) };
         let bounds = shape.bounds();
         let near = bounds.nearest() < FAR;
-        if drift == Drift::Static && !near || matches!(drift, Drift::Velocity(_)) && !near {
+        if !near && !matches!(drift, Drift::Turning(_)) {
             return Some(drift);
         }
         let keys = &keys[1..];
