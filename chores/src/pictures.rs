@@ -4,12 +4,16 @@ use super::cargo;
 use std::path::Path;
 
 /// Scene files (none: the built-in scene), what is set otherwise, and the pictures made of them.
-const PICTURES: [(Option<&str>, &[&str], &str); 4] = [
+const PICTURES: [(Option<&str>, &[&str], &str); 8] = [
     (None, &[], "scenes/built-in.png"),
-    // Half as large, so that it is no large file.
+    // Smaller, so that they are no large files.
+    (Some("scenes/thesis-4.2.toml"), &["render.width=720", "render.height=405"], "scenes/thesis-4.2.png"),
     (Some("scenes/thesis-4.5.toml"), &["render.width=960", "render.height=540"], "scenes/thesis-4.5.png"),
     (Some("scenes/thesis-4.6.toml"), &[], "scenes/thesis-4.6.png"),
     (Some("scenes/thesis-4.8.toml"), &[], "scenes/thesis-4.8.png"),
+    (Some("scenes/balls.toml"), &[], "scenes/balls.png"),
+    (Some("scenes/room.toml"), &[], "scenes/room.png"),
+    (Some("scenes/well.toml"), &[], "scenes/well.png"),
 ];
 
 /// Draws them all again.

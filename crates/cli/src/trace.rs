@@ -6,11 +6,14 @@ use crate::source::Source;
 use crate::{parse_distance, parse_finite, parse_inclination, parse_spin, print, print_json};
 use clap::ValueEnum;
 use kerrscope::camera::Camera;
-use kerrscope::render::{Sampler, tracer};
+use kerrscope::objects::World;
+use kerrscope::render::{Sampler, obstacle_tracer, tracer, world};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
 use kerrscope::spacetime::closed::{ClosedForm, NODES};
-use kerrscope::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Side, Tracer};
+use kerrscope::spacetime::geodesic::{
+    Fate, Integrator, ObstacleTracer, Path, Query, Ray, Scheme, Side, Tracer,
+};
 use kerrscope::spacetime::kerr::{horizons, redshift_factor};
 use kerrscope::spacetime::metric::Kerr;
 use kerrscope::spacetime::observer::impact_ray;
@@ -85,6 +88,8 @@ struct Output {
     conserved: Conserved,
     crossings: Vec<Crossing>,
     direction: Option<Direction>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hit: Option<Hit>,
     steps: usize,
     error_estimate: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -112,11 +117,39 @@ struct Direction {
     phi: f64,
 }
 
+#[derive(Serialize)]
+struct Hit {
+    object: usize,
+    position: [f64; 3],
+}
+
 /// A ray, the hole it passes (none in flat space) and what follows it.
 struct Shot {
     spin: Option<f64>,
     ray: Ray,
-    tracer: Box<dyn Tracer>,
+    follower: Follower,
+}
+
+/// What follows a ray, past nothing but the hole or among things.
+enum Follower {
+    Alone(Box<dyn Tracer>),
+    Among(Box<dyn ObstacleTracer>, World),
+}
+
+impl Follower {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Alone(tracer) => tracer.name(),
+            Self::Among(tracer, _) => tracer.name(),
+        }
+    }
+
+    fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
+        match self {
+            Self::Alone(tracer) => tracer.trace(ray, query, path),
+            Self::Among(tracer, world) => tracer.trace_among(ray, query, world, path),
+        }
+    }
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
@@ -131,11 +164,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         ));
     }
     let mut path = Path::default();
-    shot.tracer.trace(&shot.ray, &Query { points: 0, ..query }, &mut path);
+    shot.follower.trace(&shot.ray, &Query { points: 0, ..query }, &mut path);
     if points > 0 {
         // Points are the integrator's; the rest is what the engine asked for says.
         let mut way = Path::default();
-        shot.tracer.trace(&shot.ray, &query, &mut way);
+        shot.follower.trace(&shot.ray, &query, &mut way);
         path.points = way.points;
     }
     match arguments.format {
@@ -164,7 +197,12 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
         camera.ray(x, y)
     };
     let ray = ray.map_err(|e| Failure::Input(e.to_string()))?;
-    Ok(Shot { spin, ray, tracer: tracer(&scene, Level::best()) })
+    let follower = if scene.objects.is_empty() {
+        Follower::Alone(tracer(&scene, Level::best()))
+    } else {
+        Follower::Among(obstacle_tracer(&scene), world(&scene))
+    };
+    Ok(Shot { spin, ray, follower })
 }
 
 /// A hole without a scene.
@@ -192,7 +230,7 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
             )));
         }
     };
-    Ok(Shot { spin: Some(spin), ray, tracer })
+    Ok(Shot { spin: Some(spin), ray, follower: Follower::Alone(tracer) })
 }
 
 /// The point of the picture that is asked for, in pixels.
@@ -245,11 +283,12 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
         g: shot.spin.and_then(|a| redshift_factor(a, c.r, conserved.lambda, energy)),
     });
     Output {
-        engine: shot.tracer.name(),
+        engine: shot.follower.name(),
         fate: fate(path.fate),
         conserved: Conserved { lambda: finite(conserved.lambda), eta: finite(conserved.eta) },
         crossings: crossings.collect(),
         direction: path.direction.map(|[theta, phi]| Direction { theta, phi }),
+        hit: path.hit.map(|hit| Hit { object: hit.object, position: hit.position }),
         steps: path.steps,
         error_estimate: finite(path.error_estimate),
         path: with_points.then(|| path.points.clone()),
@@ -260,6 +299,7 @@ fn fate(fate: Fate) -> &'static str {
     match fate {
         Fate::Escaped => "escaped",
         Fate::Captured => "captured",
+        Fate::Hit => "hit",
         Fate::StepLimit => "step-limit",
     }
 }
@@ -279,6 +319,9 @@ fn text(output: &Output) -> String {
     );
     if let Some(Direction { theta, phi }) = output.direction {
         let _ = writeln!(s, "light comes from theta {theta:.9}, phi {phi:.9} rad");
+    }
+    if let Some(Hit { object, position: [x, y, z] }) = output.hit {
+        let _ = writeln!(s, "object {object} is met at x {x:.9}, y {y:.9}, z {z:.9} M");
     }
     if output.crossings.is_empty() {
         let _ = write!(s, "no crossing of the equatorial plane");

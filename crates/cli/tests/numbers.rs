@@ -165,6 +165,39 @@ fn a_pixel_of_a_scene() {
 }
 
 #[test]
+fn a_ray_that_meets_a_thing() {
+    let ball = "object=[{center=[0,9,0],radius=1},{center=[20,0,3.3],radius=0.5}]";
+    let common =
+        ["--set", "disk.model=none", "--set", "observer.inclination=80", "--set", ball, "--format", "json"];
+    let trace = |more: &[&str]| here(&[&["trace"], more, &common[..]].concat());
+    for name in ["spacetime.name=kerr", "spacetime.name=minkowski"] {
+        let met = trace(&["--set", name, "--pixel", "480,270", "--set", "screen.look_at=[20,0,3.3]"]);
+        assert_eq!((&met["fate"], &met["hit"]["object"]), (&"hit".into(), &1.into()));
+        let x: Vec<f64> = (0..3).map(|i| met["hit"]["position"][i].as_f64().unwrap()).collect();
+        let off = [x[0] - 20.0, x[1], x[2] - 3.3];
+        assert!((off.iter().map(|c| c * c).sum::<f64>().sqrt() - 0.5).abs() < 1e-9, "{x:?}");
+        assert!(met["direction"].is_null() && off[0] > 0.4, "the near side of the ball");
+        let past = trace(&["--set", name, "--pixel", "10,20"]);
+        assert_eq!((&past["fate"], &past["hit"]), (&"escaped".into(), &serde_json::Value::Null));
+        // The points of the path end where the ray does.
+        let path = trace(&[
+            "--set",
+            name,
+            "--pixel",
+            "480,270",
+            "--set",
+            "screen.look_at=[20,0,3.3]",
+            "--path",
+            "9",
+        ]);
+        let last = &path["path"][8];
+        let end: Vec<f64> = (1..4).map(|i| last[i].as_f64().unwrap()).collect();
+        let apart: f64 = end.iter().zip(&x).map(|(a, b)| (a - b).powi(2)).sum();
+        assert!(apart.sqrt() < 1e-6, "{end:?} {x:?}");
+    }
+}
+
+#[test]
 fn wrong_questions_exit_with_2() {
     let wrong: [&[&str]; 9] = [
         &["orbits", "--spin", "1.2"],

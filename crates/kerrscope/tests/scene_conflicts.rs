@@ -155,12 +155,6 @@ fn what_flat_space_lacks() {
                 "in flat space there is no innermost stable orbit for `disk.inner = \"isco\"`",
                 "give `disk.inner` a radius in M, or set `disk.model = \"none\"`",
             ),
-            (
-                3,
-                8,
-                "flat space does not turn: its spin cannot be 0.3",
-                "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
-            ),
             (5, 10, "nothing orbits in flat space", "choose another motion, such as \"static\""),
         ],
     );

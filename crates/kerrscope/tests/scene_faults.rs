@@ -36,7 +36,7 @@ fn unknown_keys() {
                 7,
                 1,
                 "[sky] has no key `mass`",
-                "[sky] has the keys brightness, color, frame, image, image_frame, kind, longitude, rotation, spacing",
+                "[sky] has the keys brightness, color, frame, image, image_frame, kind, longitude, rotation, spacing, zenith",
             ),
             (8, 2, "there is no section [display]", "write [camera.display]"),
         ],
@@ -59,7 +59,7 @@ fn keys_outside_their_sections() {
                 3,
                 1,
                 "`fog` is not in a section",
-                "a scene has the sections [camera], [disk], [observer], [render], [screen], [sky], [spacetime]",
+                "a scene has the sections [camera], [disk], [[object]], [observer], [render], [screen], [sky], [spacetime]",
             ),
             (4, 1, "`sky` cannot be a list", "write [sky] on a line of its own, and its keys below"),
         ],
@@ -217,7 +217,7 @@ fn misspelt_words() {
                 8,
                 8,
                 "`sky.kind` cannot be \"comets\"",
-                "give \"black\", \"uniform\", \"grid\", \"stars\" or \"panorama\"; the default is \"stars\"",
+                "give \"black\", \"uniform\", \"gradient\", \"grid\", \"stars\" or \"panorama\"; the default is \"stars\"",
             ),
             (
                 10,
@@ -273,10 +273,11 @@ fn unreadable_files() {
         "…/latin.toml:2:3: this is not text in UTF-8\n  \
          help: save the file in UTF-8, or check that it is a scene file"
     );
-    std::fs::write(folder.path().join("large.toml"), vec![b'#'; (1 << 20) + 1]).unwrap();
+    std::fs::write(folder.path().join("large.toml"), vec![b'#'; (8 << 20) + 1]).unwrap();
     assert_eq!(
         load("large.toml"),
-        "…/large.toml: it is larger than 1 MiB\n  \
-         help: a scene is some kilobytes of text: check that this is the right file"
+        "…/large.toml: it is larger than 8 MiB\n  \
+         help: a scene is some kilobytes of text, with a hundred thousand things some megabytes: \
+         check that this is the right file"
     );
 }

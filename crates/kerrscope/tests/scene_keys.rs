@@ -49,7 +49,7 @@ fn every_key() {
     assert_eq!(s.spacetime, scene::Spacetime::Schwarzschild);
     assert_eq!(s.file().spacetime.spin, Some(0.0));
     assert_eq!(s.disk.unwrap().inner, 6.0);
-    let s = read("spacetime.name = \"minkowski\"\nspacetime.spin = 0\ndisk.inner = 1");
+    let s = read("spacetime.name = \"minkowski\"\nspacetime.spin = 0.3\ndisk.inner = 1");
     assert_eq!(s.spacetime, scene::Spacetime::Minkowski);
     assert_eq!(s.spacetime.spin(), None);
     // A disk around +z is a retrograde one if the hole turns the other way.
@@ -129,6 +129,9 @@ fn every_key() {
         s.sky,
         scene::Sky { picture: scene::SkyPicture::Uniform { color: [1.0; 3] }, brightness: 0.0 }
     );
+    let s = read("sky = { kind = \"gradient\", zenith = [0, 0, 1] }");
+    let picture = scene::SkyPicture::Gradient { horizon: [1.0; 3], zenith: [0.0, 0.0, 1.0] };
+    assert_eq!(s.sky, scene::Sky { picture, brightness: 1.0 });
     for (kind, picture) in [
         ("uniform", scene::SkyPicture::Uniform { color: [0.2, 0.34, 0.55] }),
         ("grid", scene::SkyPicture::Grid { color: [0.2, 0.34, 0.55], spacing: PI / 12.0 }),
@@ -159,7 +162,7 @@ fn every_key() {
     let s = read(
         "[render]\nwidth = 1\nheight = 16384\nsamples = 65536\nseed = 0\njitter = false\n\
          engine = \"integrator\"\nmethod = \"rk4\"\ntolerance = 1e-14\nstep = 1\nmax_steps = 1000000\n\
-         max_crossings = 64\nadaptive = true\nadaptive_error = 1e-6\nlayers = [\"g\", \"fate\", \"g\"]\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
+         max_crossings = 64\nbounces = 0\nshifts = false\nadaptive = true\nadaptive_error = 1e-6\nlayers = [\"g\", \"fate\", \"g\"]\n[camera.display]\nexposure = -2\ntone = \"none\"\nbits = 16",
     );
     assert_eq!(
         s.render,
@@ -175,6 +178,8 @@ fn every_key() {
             step: 1.0,
             max_steps: 1_000_000,
             max_crossings: 64,
+            bounces: 0,
+            shifts: false,
             adaptive: Some(1e-6),
             layers: vec![Layer::Fate, Layer::G],
         }

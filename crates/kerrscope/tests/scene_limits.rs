@@ -56,10 +56,11 @@ fn depth_of_overrides() {
 
 #[test]
 fn size() {
-    let full = format!("# {}\n", "x".repeat((1 << 20) - 3));
+    let full = format!("# {}\n", "x".repeat((8 << 20) - 3));
     assert!(Scene::from_toml(&full, Path::new("")).is_ok());
-    let expected = "scene: it is larger than 1 MiB\n  \
-                    help: a scene is some kilobytes of text: check that this is the right file";
+    let expected = "scene: it is larger than 8 MiB\n  \
+                    help: a scene is some kilobytes of text, with a hundred thousand things some megabytes: \
+                    check that this is the right file";
     assert_eq!(first(full + "\n"), expected);
 }
 

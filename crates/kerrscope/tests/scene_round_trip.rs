@@ -4,10 +4,12 @@ use std::path::Path;
 
 use kerrscope::disk::Mapping;
 use kerrscope::display::{Colormap, Tone};
+use kerrscope::material::Finish;
 use kerrscope::render::Layer;
 use kerrscope::scene::file::{
-    Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Observer, RelativeTo,
-    Render, Screen, ScreenKind, Sky, SkyKind, Spacetime, SpacetimeName, Velocity,
+    Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Object, ObjectMotion,
+    ObjectMotionName, Observer, RelativeTo, Render, Screen, ScreenKind, ShapeName, Sky, SkyKind, Spacetime,
+    SpacetimeName, Texture, TextureKind, Velocity,
 };
 use kerrscope::scene::{Engine, Method, Scene, SceneFile};
 use kerrscope::sky::Frame;
@@ -30,7 +32,7 @@ fn spacetimes() -> impl Strategy<Value = Spacetime> {
     prop_oneof![
         option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Kerr, spin }),
         option::of(Just(0.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Schwarzschild, spin }),
-        option::of(Just(0.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Minkowski, spin }),
+        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Minkowski, spin }),
     ]
 }
 
@@ -99,7 +101,14 @@ fn disks() -> impl Strategy<Value = Disk> {
 fn skies() -> impl Strategy<Value = Sky> {
     let frames = sample::select(vec![Frame::Galactic, Frame::Equatorial]);
     let drawn = sample::select(vec![ImageFrame::Scene, ImageFrame::Galactic, ImageFrame::Equatorial]);
-    let kinds = vec![SkyKind::Black, SkyKind::Uniform, SkyKind::Grid, SkyKind::Stars, SkyKind::Panorama];
+    let kinds = vec![
+        SkyKind::Black,
+        SkyKind::Uniform,
+        SkyKind::Gradient,
+        SkyKind::Grid,
+        SkyKind::Stars,
+        SkyKind::Panorama,
+    ];
     let all = (
         sample::select(kinds),
         option::of(vector(0.0, 1.0)),
@@ -113,6 +122,7 @@ fn skies() -> impl Strategy<Value = Sky> {
         match kind {
             SkyKind::Black => plain,
             SkyKind::Uniform => Sky { color, ..plain },
+            SkyKind::Gradient => Sky { color, zenith: rotation.map(|r| r.map(|c| c.abs() / 1e6)), ..plain },
             SkyKind::Grid => Sky { color, spacing, ..plain },
             SkyKind::Stars => Sky { frame, ..turned },
             SkyKind::Panorama => {
@@ -136,7 +146,7 @@ fn renders() -> impl Strategy<Value = Render> {
         sample::select(vec![Method::Dop853, Method::Tsit5, Method::Rk4]),
         number(1e-14, 1e-2),
         option::of(number(1e-9, 1e3)),
-        (1..=1_000_000_u32, 1..=64_u32),
+        (1..=1_000_000_u32, 1..=64_u32, 0..=1000_u32, any::<bool>()),
         sample::subsequence(Layer::ALL.to_vec(), 0..=Layer::ALL.len()),
     )
         .prop_map(|(size, seed, jitter, (engine, adaptive), method, tolerance, step, most, layers)| {
@@ -152,6 +162,8 @@ fn renders() -> impl Strategy<Value = Render> {
                 step: step.filter(|_| method == Method::Rk4),
                 max_steps: most.0,
                 max_crossings: most.1,
+                bounces: most.2,
+                shifts: most.3,
                 adaptive,
                 adaptive_error: tolerance.clamp(1e-10, 1e-2),
                 layers,
@@ -175,9 +187,49 @@ fn cameras() -> impl Strategy<Value = Camera> {
     )
 }
 
+fn textures() -> impl Strategy<Value = Texture> {
+    let kinds = vec![TextureKind::Solid, TextureKind::Checker, TextureKind::Image, TextureKind::Noise];
+    let numbers =
+        (option::of(number(1e-9, 1e9)), option::of(0..=i64::MAX as u64), option::of([1..=9_u32, 1..=9_u32]));
+    (sample::select(kinds), option::of(vector(0.0, 1.0)), numbers).prop_map(
+        |(kind, color, (size, seed, squares))| match kind {
+            TextureKind::Solid => Texture::default(),
+            TextureKind::Checker => Texture { kind, color, squares, ..Texture::default() },
+            TextureKind::Image => Texture { kind, path: Some("Cargo.toml".to_owned()), ..Texture::default() },
+            TextureKind::Noise => Texture { kind, color, size, seed, ..Texture::default() },
+        },
+    )
+}
+
+/// Things far from any hole, and those that orbit it.
+fn objects() -> impl Strategy<Value = Object> {
+    let shapes = sample::select(vec![ShapeName::Sphere, ShapeName::Parallelogram, ShapeName::Annulus]);
+    let finishes = sample::select(vec![Finish::Matt, Finish::Light, Finish::Mirror]);
+    let motions = prop_oneof![
+        Just(ObjectMotion::Named(ObjectMotionName::Static)),
+        vector(-0.57, 0.57).prop_map(ObjectMotion::Velocity),
+    ];
+    let looks = (finishes, option::of(vector(0.0, 1.0)), option::of(number(0.0, 1e12)), textures(), motions);
+    let places =
+        (vector(20.0, 1e9), number(0.5, 9.0), option::of(number(0.0, 0.4)), option::of(vector(0.1, 1.0)));
+    (shapes, looks, places).prop_map(|(shape, looks, (at, size, inner, normal))| {
+        let (material, color, brightness, texture, motion) = looks;
+        let brightness = brightness.filter(|_| material == Finish::Light);
+        let plain = Object { shape, material, color, brightness, texture, motion, ..Object::default() };
+        match shape {
+            ShapeName::Sphere => Object { center: Some(at), radius: Some(size), rotation: normal, ..plain },
+            ShapeName::Parallelogram => {
+                Object { corner: Some(at), edges: Some([[size, 0.0, 1.0], [0.0, size, -1.0]]), ..plain }
+            }
+            ShapeName::Annulus => Object { center: Some(at), outer: Some(size), inner, normal, ..plain },
+        }
+    })
+}
+
 fn scene_files() -> impl Strategy<Value = SceneFile> {
-    (spacetimes(), observers(), disks(), skies(), renders(), cameras()).prop_map(
-        |(spacetime, (mut observer, screen), mut disk, sky, render, camera)| {
+    let things = prop_oneof![3 => Just(Vec::new()), 1 => proptest::collection::vec(objects(), 0..4)];
+    (spacetimes(), observers(), disks(), things, skies(), renders(), cameras()).prop_map(
+        |(spacetime, (mut observer, screen), mut disk, object, sky, render, camera)| {
             if spacetime.name == SpacetimeName::Minkowski && disk.inner == Inner::Isco(Isco::Isco) {
                 disk.inner = Inner::Radius(3.0);
             }
@@ -189,11 +241,19 @@ fn scene_files() -> impl Strategy<Value = SceneFile> {
                 (render.method, render.step) = (Method::Dop853, None);
             }
             let tilted = disk.model != DiskModel::None && disk.tilt != 0.0;
-            if spacetime.name == SpacetimeName::Minkowski || tilted || render.method != Method::Dop853 {
+            let things = !object.is_empty();
+            if things {
+                render.adaptive = None;
+            }
+            if spacetime.name == SpacetimeName::Minkowski
+                || tilted
+                || things
+                || render.method != Method::Dop853
+            {
                 // Not for the closed form.
                 render.engine = Engine::Integrator;
             }
-            SceneFile { spacetime, observer, screen, disk, sky, render, camera }
+            SceneFile { spacetime, observer, screen, disk, object, sky, render, camera }
         },
     )
 }

@@ -3,6 +3,8 @@
 //! The numbers come from an integer hash and the joining uses sums and products alone,
 //! so the noise is the same on every machine.
 
+use crate::random::{mix, unit};
+
 /// Smooth noise from 0 to 1 that depends on a seed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Noise {
@@ -31,9 +33,7 @@ impl Noise {
 
     fn value(self, i: i64, j: i64, period: i64) -> f64 {
         let j = j.rem_euclid(period);
-        let bits = mix(self.seed ^ mix(i.cast_unsigned() ^ mix(j.cast_unsigned())));
-        // The upper 53 bits, as a number from 0 to 1.
-        (bits >> 11) as f64 / (1_u64 << 53) as f64
+        unit(mix(self.seed ^ mix(i.cast_unsigned() ^ mix(j.cast_unsigned()))))
     }
 }
 
@@ -45,13 +45,4 @@ pub(super) fn smooth(t: f64) -> f64 {
 
 pub(super) fn lerp(a: f64, b: f64, t: f64) -> f64 {
     a + (b - a) * t
-}
-
-// The output function of SplitMix64: Steele, Lea, Flood, "Fast splittable pseudorandom
-// number generators", OOPSLA 2014, with Stafford's constants.
-const fn mix(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9E37_79B9_7F4A_7C15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    x ^ (x >> 31)
 }

@@ -24,7 +24,12 @@ impl FalseColor {
     pub fn scale(layer: Layer) -> Scale {
         match layer {
             Layer::Fate => {
-                let fates = [(0.0, "from infinity"), (1.0, "from the horizon"), (2.0, "given up")];
+                let fates = [
+                    (0.0, "from infinity"),
+                    (1.0, "from the horizon"),
+                    (2.0, "given up"),
+                    (3.0, "from a thing"),
+                ];
                 Scale::Categories(fates.map(|(value, name)| (value, name.to_owned())).to_vec())
             }
             Layer::Error | Layer::R | Layer::Depth => Scale::Logarithmic,

@@ -19,7 +19,8 @@ pub const ORDERS: u8 = 3;
 #[derive(Clone, Copy, Debug, Deserialize, Eq, Hash, JsonSchema, Ord, PartialEq, PartialOrd, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Layer {
-    /// How the ray ends: 0 it comes from infinity, 1 from the horizon (no light), 2 it was given up.
+    /// How the ray ends: 0 it comes from infinity, 1 from the horizon (no light), 2 it was given up, 3 from a thing. What is
+    /// behind a thing is not in the other layers: they have crossings before it only, and no direction.
     Fate,
     /// How often the ray crosses the disk's plane, `render.max_crossings` at most.
     Crossings,
@@ -44,7 +45,7 @@ pub enum Layer {
     SkyTheta,
     /// Azimuth of the direction that light comes from, unwrapped along the ray.
     SkyPhi,
-    /// Distance of what is seen of the disk from the camera, along a straight line in Cartesian
+    /// Distance of what is seen of disk or things from the camera, along a straight line in Cartesian
     /// Kerr–Schild coordinates; infinite where the ray meets nothing.
     Depth,
 }

@@ -3,8 +3,10 @@
 mod adaptive;
 mod film;
 mod layer;
+mod legs;
 mod probe;
 mod sampling;
+mod setting;
 mod stage;
 mod tally;
 mod tile;
@@ -13,9 +15,10 @@ mod tracer;
 pub use film::{Film, Moments, Plane};
 pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;
+pub use setting::world;
 pub use stage::{Replay, Stage, StageError};
 pub use tally::{Interpolation, Tally};
-pub use tracer::tracer;
+pub use tracer::{obstacle_tracer, tracer};
 
 use crate::checkpoint::Checkpoint;
 use crate::output::FileError;

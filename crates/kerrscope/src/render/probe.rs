@@ -59,6 +59,7 @@ impl Probe {
                 Fate::Escaped => 0.0,
                 Fate::Captured => 1.0,
                 Fate::StepLimit => 2.0,
+                Fate::Hit => 3.0,
             },
             Layer::Crossings => path.crossings.len().min(self.query.max_crossings) as f64,
             Layer::Windings => path.windings,
@@ -70,7 +71,7 @@ impl Probe {
             Layer::G => crossing().zip(ray).and_then(|(c, ray)| self.redshift(ray, c.r)).unwrap_or(f64::NAN),
             Layer::SkyTheta => path.direction.map_or(f64::NAN, |[theta, _]| theta),
             Layer::SkyPhi => path.direction.map_or(f64::NAN, |[_, phi]| phi),
-            Layer::Depth => ray.zip(disk).map_or(f64::INFINITY, |(ray, disk)| depth(ray, path, disk)),
+            Layer::Depth => ray.map_or(f64::INFINITY, |ray| depth(ray, path, disk)),
         }
     }
 
@@ -90,18 +91,18 @@ impl Probe {
     }
 }
 
-/// How far away the disk is where the ray first meets it.
-fn depth(ray: &Ray, path: &Path, disk: &Disk) -> f64 {
-    let met = path
-        .crossings
-        .iter()
-        .find(|c| disk.sheet(&disk.hit(c.r, c.position)).is_some_and(|sheet| sheet.opacity > 0.0));
-    let Some(crossing) = met else { return f64::INFINITY };
+/// How far away the disk is where the ray first meets it, or the thing behind which it does not.
+fn depth(ray: &Ray, path: &Path, disk: Option<&Disk>) -> f64 {
+    let met = disk.and_then(|disk| {
+        let seen = |r, position| disk.sheet(&disk.hit(r, position)).is_some_and(|sheet| sheet.opacity > 0.0);
+        path.crossings.iter().find(|c| seen(c.r, c.position)).map(|c| c.position)
+    });
+    let Some(position) = met.or(path.hit.map(|hit| hit.position)) else { return f64::INFINITY };
     if ray.side == Side::Ingoing {
         // What lies behind the change of sheets is known in other coordinates.
         return f64::NAN;
     }
     let camera: Vec3<f64> = ray.start.n.map(|c| c / ray.start.w);
-    let apart: Vec3<f64> = std::array::from_fn(|i| crossing.position[i] - camera[i]);
+    let apart: Vec3<f64> = std::array::from_fn(|i| position[i] - camera[i]);
     dot(&apart, &apart).sqrt()
 }

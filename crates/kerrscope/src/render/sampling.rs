@@ -1,5 +1,7 @@
 //! Where in a pixel the rays lie: a function of (seed, pixel, sample) alone.
 
+use crate::random::{mix, unit};
+
 /// The places of the samples of a pixel.
 ///
 /// A square number of samples is one in each cell of a square grid; any other number lies on a
@@ -38,16 +40,8 @@ impl Sampler {
     /// Two numbers in [0, 1), independent for each (seed, pixel, sample).
     fn chance(&self, pixel: u64, sample: u64) -> [f64; 2] {
         let state = mix(self.seed ^ mix(pixel ^ mix(sample)));
-        [state, mix(state)].map(|bits| (bits >> 11) as f64 * (1.0 / (1_u64 << 53) as f64))
+        [state, mix(state)].map(unit)
     }
-}
-
-/// The output function of SplitMix64 (Steele, Lea & Flood 2014), one step on from `x`.
-pub(super) fn mix(x: u64) -> u64 {
-    let x = x.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    x ^ (x >> 31)
 }
 
 #[cfg(test)]

@@ -1,20 +1,22 @@
 //! A scene made ready to be drawn: pictures loaded, camera and tracer set up.
 
 use super::adaptive::Audit;
+use super::legs::{Around, Legs};
 use super::probe::Probe;
+use super::setting;
 use super::tracer::tracer;
 use super::{Channel, Sampler, Tally};
 use crate::camera::Camera;
-use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
-use crate::display::srgb;
+use crate::disk::{Disk, DiskHit, Plane};
 use crate::light::{Beam, Light};
-use crate::scene::{self, Scene, ScreenKind, SkyPicture};
-use crate::sky::{Grid, Panorama, Sky, Stars, footprint, towards};
+use crate::random::Stream;
+use crate::scene::Scene;
+use crate::sky::{Sky, footprint, towards};
 use crate::spacetime::Level;
 use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use crate::spacetime::observer::ObserverError;
 use crate::spacetime::tensor::Vec3;
-use crate::texture::{Texture, TextureError};
+use crate::texture::TextureError;
 
 /// Everything that a render needs.
 pub struct Stage {
@@ -25,6 +27,7 @@ pub struct Stage {
     query: Query,
     probe: Probe,
     disk: Option<Disk>,
+    legs: Option<Legs>,
     sky: Sky,
     /// Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
     pixel: f64,
@@ -82,13 +85,13 @@ impl Stage {
     /// # Errors
     /// If a picture cannot be read.
     pub fn with_level(scene: &Scene, level: Level) -> Result<Self, StageError> {
-        let disk = scene.disk.as_ref().map(surface).transpose()?;
+        let disk = scene.disk.as_ref().map(setting::disk).transpose()?;
         let query = Query {
             plane: disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane).normal(),
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
             ..Query::default()
         };
-        let pixel = pixel_angle(scene);
+        let pixel = setting::pixel_angle(scene);
         Ok(Self {
             size: [scene.render.width, scene.render.height],
             samples: scene.render.samples,
@@ -98,7 +101,8 @@ impl Stage {
             probe: Probe::new(scene, &query),
             query,
             disk,
-            sky: sky(scene, pixel)?,
+            legs: setting::legs(scene)?,
+            sky: setting::sky(scene, pixel)?,
             pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
             adaptive: scene.render.adaptive,
@@ -201,6 +205,12 @@ impl Stage {
         tally: &mut Tally,
         mut each: impl FnMut(Light),
     ) {
+        if let Some(legs) = &self.legs {
+            for pixel in pixels {
+                each(self.scattered(legs, pixel, replay, tally));
+            }
+            return;
+        }
         replay.views.clear();
         replay.points.clear();
         for pixel in pixels {
@@ -215,6 +225,38 @@ impl Stage {
         for views in replay.views.chunks(self.samples as usize) {
             each(self.mean(views));
         }
+    }
+
+    /// The mean light of a pixel's rays in a scene with things.
+    fn scattered(&self, legs: &Legs, pixel: [u32; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
+        let angle = self.pixel / f64::from(self.samples).sqrt();
+        let mut sum = Light::DARK;
+        for sample in 0..self.samples {
+            let random = Stream::new(legs.seed, self.number(pixel), u64::from(sample));
+            sum += self.path(legs, self.sample(pixel, sample), angle, random, replay, tally);
+        }
+        sum * f64::from(self.samples).recip()
+    }
+
+    /// The light that arrives at a point of the picture in a scene with things, by one path.
+    fn path(
+        &self,
+        legs: &Legs,
+        [x, y]: [f64; 2],
+        angle: f64,
+        random: Stream,
+        replay: &mut Replay,
+        tally: &mut Tally,
+    ) -> Light {
+        let Ok(ray) = self.camera.ray(x, y) else {
+            tally.count(0, 0.0, false);
+            return Light::DARK;
+        };
+        if replay.paths.is_empty() {
+            replay.paths.push(Path::default());
+        }
+        let around = Around { disk: self.disk.as_ref(), sky: &self.sky, query: &self.query, angle };
+        legs.light(&ray, &around, random, &mut replay.paths[0], tally)
     }
 
     /// The mean light of a pixel whose rays see this.
@@ -253,8 +295,13 @@ impl Stage {
         }
     }
 
-    /// The light that arrives at a point of the picture, from a pixel's angle of the sky.
+    /// The light that arrives at a point of the picture, from a pixel's angle of the sky; in a scene with things, by one
+    /// path, which the point's coordinates choose.
     pub fn ray(&self, point: [f64; 2], replay: &mut Replay, tally: &mut Tally) -> Light {
+        if let Some(legs) = &self.legs {
+            let random = Stream::new(legs.seed, point[0].to_bits(), point[1].to_bits());
+            return self.path(legs, point, self.pixel, random, replay, tally);
+        }
         replay.views.clear();
         replay.points.clear();
         replay.points.push(point);
@@ -330,7 +377,14 @@ impl Stage {
         if paths.len() < rays.len() {
             paths.resize_with(rays.len(), Path::default);
         }
-        self.tracer.trace_all(rays, query, &mut paths[..rays.len()]);
+        match &self.legs {
+            None => self.tracer.trace_all(rays, query, &mut paths[..rays.len()]),
+            Some(Legs { tracer, world, .. }) => {
+                for (ray, path) in rays.iter().zip(&mut *paths) {
+                    tracer.trace_among(ray, query, world, path);
+                }
+            }
+        }
         for path in &paths[..rays.len()] {
             tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
         }
@@ -343,54 +397,4 @@ impl Stage {
 /// The path of a photon that does not exist: no light.
 fn nowhere() -> Path {
     Path { fate: Fate::Captured, error_estimate: 0.0, windings: f64::NAN, ..Path::default() }
-}
-
-fn linear(color: [f64; 3]) -> Light {
-    Light::new(color.map(srgb::decode))
-}
-
-fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
-    let surface = match &disk.surface {
-        scene::Surface::Ring { seed } => Surface::Ring(Ring::new(*seed)),
-        scene::Surface::Picture { path, mapping } => {
-            Surface::Picture(Picture { texture: Texture::load(path)?, mapping: *mapping })
-        }
-    };
-    Ok(Disk {
-        inner: disk.inner,
-        outer: disk.outer,
-        plane: Plane::new(disk.tilt, disk.node),
-        surface,
-        tint: disk.color.map(|c| srgb::decode(c) * disk.brightness),
-        opacity: disk.opacity,
-    })
-}
-
-/// The angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
-fn pixel_angle(scene: &Scene) -> f64 {
-    let pixels = f64::from(scene.render.height);
-    match scene.screen.kind {
-        ScreenKind::Pinhole { height } => 2.0 * (0.5 * height).tan() / pixels,
-        ScreenKind::Angular { height } => height / pixels,
-        // For a distant observer this is nothing; then what deflection by 4/b makes of it at the
-        // picture's edge.
-        ScreenKind::Impact { height } => {
-            let deflection = 4.0 / (0.5 * height).powi(2);
-            height / pixels * deflection.min(1.0).max(scene.observer.place.r.recip())
-        }
-    }
-}
-
-/// The sky of a picture whose pixels cover an angle on it if nothing bends light.
-fn sky(scene: &Scene, pixel: f64) -> Result<Sky, TextureError> {
-    let sky = &scene.sky;
-    Ok(match &sky.picture {
-        SkyPicture::Black => Sky::Black,
-        SkyPicture::Uniform { color } => Sky::Uniform(linear(*color) * sky.brightness),
-        SkyPicture::Grid { color, spacing } => Sky::Grid(Grid::new(*spacing, linear(*color), sky.brightness)),
-        SkyPicture::Stars { orientation } => Sky::Stars(Stars::new(pixel, *orientation, sky.brightness)),
-        SkyPicture::Panorama { path, orientation } => {
-            Sky::Panorama(Panorama::new(Texture::load(path)?, *orientation, sky.brightness))
-        }
-    })
 }

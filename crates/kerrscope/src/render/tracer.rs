@@ -3,11 +3,29 @@
 use crate::scene::{Engine, Method, Scene};
 use crate::spacetime::Level;
 use crate::spacetime::closed::{ClosedForm, NODES};
-use crate::spacetime::geodesic::{Integrator, Scheme, Straight, Tracer};
+use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, Straight, Tracer};
 use crate::spacetime::metric::Kerr;
 
 /// The tracer that a scene asks for, with the instructions of a level.
 pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
+    match (scene.spacetime.spin(), scene.render.engine) {
+        (None, _) => Box::new(Straight),
+        (Some(spin), Engine::ClosedForm) => {
+            Box::new(ClosedForm::new(spin, NODES, scene.render.max_steps as usize).with_level(level))
+        }
+        (Some(spin), _) => integrator(scene, spin).with_level(level).boxed(),
+    }
+}
+
+/// The tracer of a scene whose rays meet things. It follows them one by one.
+pub fn obstacle_tracer(scene: &Scene) -> Box<dyn ObstacleTracer> {
+    match scene.spacetime.spin() {
+        None => Box::new(Straight),
+        Some(spin) => integrator(scene, spin).boxed(),
+    }
+}
+
+fn integrator(scene: &Scene, spin: f64) -> Integrator<Kerr> {
     let render = &scene.render;
     let tolerance = render.tolerance;
     let scheme = match render.method {
@@ -15,11 +33,6 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
         Method::Tsit5 => Scheme::Tsit5 { tolerance },
         Method::Dop853 => Scheme::Dop853 { tolerance },
     };
-    let steps = render.max_steps as usize;
-    match (scene.spacetime.spin(), render.engine) {
-        (None, _) => Box::new(Straight),
-        (Some(spin), Engine::ClosedForm) => Box::new(ClosedForm::new(spin, NODES, steps).with_level(level)),
-        // A hole without spin has the same coordinates.
-        (Some(spin), _) => Integrator::new(Kerr::new(spin), scheme, steps).with_level(level).boxed(),
-    }
+    // A hole without spin has the same coordinates.
+    Integrator::new(Kerr::new(spin), scheme, render.max_steps as usize)
 }

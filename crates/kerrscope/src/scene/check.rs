@@ -179,7 +179,9 @@ fn wrong_kind(node: &Node, shape: &Shape<'_>, path: &str) -> (String, String) {
         Value::List(_) => "a list".to_owned(),
         Value::Table(_) => "a table".to_owned(),
     };
-    if shape.allows("object") && !path.contains('.') {
+    if shape.holds_tables() && !path.contains('.') {
+        mend = format!("write [[{path}]] on a line of its own for each of them, and its keys below");
+    } else if shape.allows("object") && !path.contains(['.', '[']) {
         mend = format!("write [{path}] on a line of its own, and its keys below");
     }
     (format!("`{path}` cannot be {what}"), mend)
@@ -218,29 +220,37 @@ fn unknown(key: &str, node: &Node, path: &str, schema: &Json, root: &Json) -> (S
     let shown = shorten(key);
     let what = match (path, &node.value) {
         ("", Value::Table(_)) => format!("there is no section [{shown}]"),
+        ("", Value::List(list)) if list.iter().any(|item| matches!(item.value, Value::Table(_))) => {
+            format!("there is no section [[{shown}]]")
+        }
         ("", _) => format!("`{shown}` is not in a section"),
-        _ => format!("[{path}] has no key `{shown}`"),
+        _ => format!("{} has no key `{shown}`", section(path)),
     };
-    let siblings = shape::properties(schema);
-    let siblings: Vec<&str> = siblings.into_iter().map(|(key, _)| key).collect();
+    let siblings: Vec<&str> = shape::properties(schema).into_iter().map(|(key, _)| key).collect();
+    // Of a section of which there may be many.
+    let header = |key: &str| {
+        let many = shape::property(schema, key).is_some_and(|schema| Shape::new(schema).holds_tables());
+        if many { format!("[[{key}]]") } else { format!("[{key}]") }
+    };
     if let Some(guess) = similar(key, siblings.iter().copied()) {
-        let guess = if path.is_empty() { format!("[{guess}]") } else { format!("`{guess}`") };
+        let guess = if path.is_empty() { header(guess) } else { format!("`{guess}`") };
         return (what, format!("did you mean {guess}?"));
     }
     let mut homes = Vec::new();
     sections_with(key, root, "", &mut homes);
     if let (Value::Table(_), "", [home]) = (&node.value, path, &homes[..]) {
+        let home = home.replace("[]", "");
         return (what, format!("write [{home}.{shown}]"));
     }
     if !homes.is_empty() {
-        let homes: Vec<String> = homes.iter().map(|home| format!("[{home}]")).collect();
+        let homes: Vec<String> = homes.iter().map(|home| section(home)).collect();
         return (what, format!("`{shown}` belongs in {}", either(&homes)));
     }
     let mend = if path.is_empty() {
-        let sections: Vec<String> = siblings.iter().map(|key| format!("[{key}]")).collect();
+        let sections: Vec<String> = siblings.iter().map(|key| header(key)).collect();
         format!("a scene has the sections {}", sections.join(", "))
     } else {
-        format!("[{path}] has the keys {}", siblings.join(", "))
+        format!("{} has the keys {}", section(path), siblings.join(", "))
     };
     (what, mend)
 }
@@ -253,5 +263,15 @@ fn sections_with(key: &str, schema: &Json, path: &str, into: &mut Vec<String>) {
         }
         let inner = if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
         sections_with(key, child, &inner, into);
+        if let Some(items) = child.get("items") {
+            sections_with(key, items, &format!("{inner}[]"), into);
+        }
     }
+}
+
+/// The header of a section, without the numbers of those of which there are many: [[object]] for object[3].
+fn section(path: &str) -> String {
+    let plain: String =
+        path.split('[').map(|part| part.split_once(']').map_or(part, |(_, rest)| rest)).collect();
+    if path.ends_with(']') { format!("[[{plain}]]") } else { format!("[{plain}]") }
 }

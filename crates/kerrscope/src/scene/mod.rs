@@ -46,7 +46,8 @@ use std::path::Path;
 pub use fault::{Fault, Faults, Source};
 pub use file::SceneFile;
 pub use valid::{
-    Disk, Display, Engine, Method, Observer, Render, Screen, ScreenKind, Sky, SkyPicture, Spacetime, Surface,
+    Disk, Display, Engine, Method, Object, ObjectPattern, Observer, Render, Screen, ScreenKind, Sky,
+    SkyPicture, Spacetime, Surface,
 };
 
 /// What to call a text that came from no file.
@@ -63,6 +64,8 @@ pub struct Scene {
     pub screen: Screen,
     /// The disk, if there is one.
     pub disk: Option<Disk>,
+    /// Things that scatter light or shine.
+    pub objects: Vec<Object>,
     /// What is seen where light comes from infinity.
     pub sky: Sky,
     /// How finely and how exactly the picture is computed.
@@ -130,7 +133,7 @@ impl Scene {
         self.file.to_toml()
     }
 
-    /// The picture files that it shows.
+    /// The picture files that it shows, those of things once each.
     pub fn pictures(&self) -> impl Iterator<Item = &Path> {
         let disk = self.disk.as_ref().and_then(|disk| match &disk.surface {
             Surface::Picture { path, .. } => Some(path.as_path()),
@@ -140,7 +143,12 @@ impl Scene {
             SkyPicture::Panorama { path, .. } => Some(path.as_path()),
             _ => None,
         };
-        disk.into_iter().chain(sky)
+        let things = self.objects.iter().filter_map(|object| match &object.pattern {
+            ObjectPattern::Picture { path } => Some(path.as_path()),
+            _ => None,
+        });
+        let things: std::collections::BTreeSet<_> = things.collect();
+        disk.into_iter().chain(sky).chain(things)
     }
 
     /// The keys that the scene was built from, with every default.

@@ -10,7 +10,7 @@ use super::tree::{self, Node};
 use super::{Scene, SceneFile, build, check, overrides};
 
 /// The most bytes that a scene may have.
-const MAX_BYTES: usize = 1 << 20;
+const MAX_BYTES: usize = 8 << 20;
 
 static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(SceneFile::schema);
 
@@ -117,6 +117,6 @@ fn too_large(name: &str) -> Fault {
         source: Source::new(name, ""),
         span: None,
         message: format!("it is larger than {} MiB", MAX_BYTES >> 20),
-        help: "a scene is some kilobytes of text: check that this is the right file".to_owned(),
+        help: "a scene is some kilobytes of text, with a hundred thousand things some megabytes: check that this is the right file".to_owned(),
     }
 }

@@ -37,6 +37,13 @@ impl<'s> Shape<'s> {
         self.alternatives.iter().any(|schema| kind(schema) == wanted)
     }
 
+    /// Whether it is a list of tables.
+    pub(super) fn holds_tables(&self) -> bool {
+        self.alternatives
+            .iter()
+            .any(|schema| schema.get("items").is_some_and(|items| kind(items) == "object"))
+    }
+
     /// The words allowed; none if any text is, or no text.
     pub(super) fn words(&self) -> Vec<&'s str> {
         self.alternatives.iter().filter_map(|schema| schema.get("const")?.as_str()).collect()
@@ -94,9 +101,14 @@ fn phrase(schema: &Json) -> String {
         "string" => "text in quotation marks".to_owned(),
         "array" => {
             let items = schema.get("items").map(phrase).unwrap_or_default();
-            let items = items.replacen("a number", "numbers", 1);
+            let items =
+                items.replacen("a number", "numbers", 1).replacen("a whole number", "whole numbers", 1);
+            let items = items.replacen("a list", "lists", 1);
             let count = schema.get("minItems").and_then(Json::as_u64).unwrap_or(0);
-            format!("a list of {count} {items}")
+            match count {
+                0 => format!("a list of {items}"),
+                _ => format!("a list of {count} {items}"),
+            }
         }
         "object" => {
             let required = |key: &str| {

@@ -39,11 +39,13 @@ impl Node {
         Self { key: place.clone(), place, value: Value::Table(BTreeMap::new()) }
     }
 
-    /// The value at a path such as `observer.distance`, if it was typed.
+    /// The value at a path such as `observer.distance` or `object[3].radius`, if it was typed.
     pub(super) fn at(&self, path: &str) -> Option<&Self> {
-        path.split('.').try_fold(self, |node, key| match &node.value {
-            Value::Table(table) => table.get(key),
-            _ => None,
+        path.split('.').try_fold(self, |node, part| {
+            let Value::Table(table) = &node.value else { return None };
+            let Some((key, index)) = part.split_once('[') else { return table.get(part) };
+            let Value::List(list) = &table.get(key)?.value else { return None };
+            list.get(index.strip_suffix(']')?.parse::<usize>().ok()?)
         })
     }
 

@@ -4,10 +4,12 @@ use std::path::PathBuf;
 
 use crate::disk::Mapping;
 use crate::display::{self, Depth, FalseColor, Picture};
+use crate::material::Finish;
+use crate::objects::Shape;
 use crate::render::Film;
 use crate::render::Layer;
 use crate::sky::Orientation;
-use kerrscope_spacetime::observer::{Motion, Place};
+use kerrscope_spacetime::observer::{Drift, Motion, Place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -116,6 +118,51 @@ pub enum Surface {
     },
 }
 
+/// A thing in the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// Its shape and place, in M, in the Kerr–Schild coordinates in which rays are traced.
+    pub shape: Shape,
+    /// What its surface does with light.
+    pub finish: Finish,
+    /// Red, green and blue in sRGB, 0 to 1: its colour, or the filter that its picture is seen through.
+    pub color: [f64; 3],
+    /// Factor on what a light sends.
+    pub brightness: f64,
+    /// How the colour changes from place to place.
+    pub pattern: ObjectPattern,
+    /// How its matter moves; possible at all of its places.
+    pub drift: Drift,
+}
+
+/// How the colour of a thing changes from place to place. Colours are in sRGB, 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum ObjectPattern {
+    /// It does not.
+    Solid,
+    /// Squares in turn.
+    Checker {
+        /// The other colour.
+        second: [f64; 3],
+        /// How many there are along each coordinate.
+        squares: [u32; 2],
+    },
+    /// A picture.
+    Picture {
+        /// The file, as seen from the current folder. It existed when the scene was built.
+        path: PathBuf,
+    },
+    /// Clouds.
+    Noise {
+        /// The other colour.
+        second: [f64; 3],
+        /// Size of the largest clouds, M.
+        size: f64,
+        /// Chooses the pattern.
+        seed: u64,
+    },
+}
+
 /// What is seen where light comes from infinity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sky {
@@ -134,6 +181,13 @@ pub enum SkyPicture {
     Uniform {
         /// Red, green and blue in sRGB, 0 to 1.
         color: [f64; 3],
+    },
+    /// From one colour at the horizon to another towards +z.
+    Gradient {
+        /// Red, green and blue in sRGB, 0 to 1, at the horizon and below.
+        horizon: [f64; 3],
+        /// Those towards +z.
+        zenith: [f64; 3],
     },
     /// Lines of equal θ and of equal φ.
     Grid {
@@ -182,6 +236,10 @@ pub struct Render {
     /// Crossings of the disk's plane that count, the first met going back from the camera; what lies
     /// behind is seen through the rest.
     pub max_crossings: u32,
+    /// How often light is scattered or reflected by things at most.
+    pub bounces: u32,
+    /// Whether light carries its shift between things, sky and camera, in a scene with things.
+    pub shifts: bool,
     /// If pictures are interpolated between rays, the largest error that this shall make: relative for
     /// radii, radians for azimuths and directions.
     pub adaptive: Option<f64>,
@@ -197,7 +255,7 @@ pub enum Engine {
     /// the integrator.
     #[default]
     Auto,
-    /// The closed form: Kerr and Schwarzschild holes with a disk in the equatorial plane or none.
+    /// The closed form: Kerr and Schwarzschild holes with a disk in the equatorial plane or none, and no things.
     ClosedForm,
     /// Numerical integration.
     Integrator,

@@ -14,6 +14,7 @@ mod color;
 mod cube;
 mod footprint;
 mod glow;
+mod gradient;
 mod grid;
 mod orientation;
 mod panorama;
@@ -22,6 +23,7 @@ mod stars;
 pub use catalogue::Star;
 pub use footprint::footprint;
 pub use glow::Glow;
+pub use gradient::Gradient;
 pub use grid::Grid;
 pub use orientation::{Frame, Orientation};
 pub use panorama::Panorama;
@@ -46,6 +48,8 @@ pub enum Sky {
     Black,
     /// The same light from everywhere.
     Uniform(Light),
+    /// A blue sky.
+    Gradient(Gradient),
     /// Lines of latitude and longitude.
     Grid(Grid),
     /// The stars and the Milky Way.
@@ -61,6 +65,7 @@ impl Sky {
         match self {
             Self::Black => Light::DARK,
             Self::Uniform(light) => *light,
+            Self::Gradient(gradient) => gradient.radiance(n),
             Self::Grid(grid) => grid.radiance(n),
             Self::Stars(stars) => stars.radiance(n),
             Self::Panorama(panorama) => panorama.radiance(n, angle),

@@ -72,7 +72,7 @@ fn edge(spin: f64, degrees: f64, centre: [f64; 2], along: [f64; 2]) -> f64 {
         match trace(spin, degrees, f64::INFINITY, impact, 0).fate {
             Fate::Escaped => outside = middle,
             // A ray so close to the edge that it is given up is on it.
-            Fate::Captured | Fate::StepLimit => inside = middle,
+            Fate::Captured | Fate::StepLimit | Fate::Hit => inside = middle,
         }
     }
     0.5 * (inside + outside)

@@ -12,6 +12,8 @@ use crate::tensor::{Vec3, dot};
 pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
     /// First of the three components that point to the photon.
     const PLACE: usize;
+    /// The component by which they have to be divided for Cartesian coordinates, if any.
+    const DIVISOR: Option<usize>;
 
     /// −p_t.
     fn energy(&self) -> S;
@@ -46,6 +48,7 @@ pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
 
 impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
     const PLACE: usize = 1;
+    const DIVISOR: Option<usize> = Some(0);
 
     #[inline(always)]
     fn energy(&self) -> S {
@@ -134,6 +137,7 @@ impl<M: Metric, const D: usize> Flow<f64, D> for BoundedAffine<M> {
 
 impl<M: Metric, const D: usize> Chart<f64, D> for BoundedAffine<M> {
     const PLACE: usize = 0;
+    const DIVISOR: Option<usize> = None;
 
     fn energy(&self) -> f64 {
         self.flow.energy

@@ -62,6 +62,18 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
         y
     }
 
+    /// The coefficients of one component in Bernstein's basis of degree 7, B₀ … B₇ over the step.
+    pub(super) fn bernstein(&self, i: usize) -> [S; 8] {
+        // The terms that a lower method does without are zero.
+        let mut b = [self.start[i]; 8];
+        for n in 0..7 {
+            for k in 0..8 {
+                b[k] += self.terms[n][i] * BERNSTEIN[n][k];
+            }
+        }
+        b
+    }
+
     /// The sum of the first components, each times its weight.
     #[inline(always)]
     pub(super) fn weighted<const N: usize>(&self, weights: &[S; N]) -> Dense<S, 1> {
@@ -79,6 +91,37 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
         Dense { start: of(&self.start), terms: self.terms.each_ref().map(of), used: self.used }
     }
 }
+
+/// The coefficients in Bernstein's basis of degree 7 of what each term of the dense output is multiplied by: θ, θ(1−θ),
+/// θ²(1−θ), … By (1−θ)ᵇ θᵃ = Σₖ C(7−a−b, k−a)/C(7, k) Bₖ; none is negative, so that nothing cancels.
+const BERNSTEIN: [[f64; 8]; 7] = {
+    let pascal = {
+        let mut rows = [[0.0; 8]; 8];
+        let mut n = 0;
+        while n < 8 {
+            rows[n][0] = 1.0;
+            let mut k = 1;
+            while k <= n {
+                rows[n][k] = rows[n - 1][k - 1] + rows[n - 1][k];
+                k += 1;
+            }
+            n += 1;
+        }
+        rows
+    };
+    let mut table = [[0.0; 8]; 7];
+    let mut n = 0;
+    while n < 7 {
+        let (a, b) = (n / 2 + 1, usize::div_ceil(n, 2));
+        let mut k = a;
+        while k + b <= 7 {
+            table[n][k] = pascal[7 - a - b][k - a] / pascal[7][k];
+            k += 1;
+        }
+        n += 1;
+    }
+    table
+};
 
 #[inline(always)]
 fn weighted_sum<S: Scalar, const D: usize, const N: usize>(y: &[S; D], weights: &[S; N]) -> S {

@@ -6,7 +6,7 @@ use super::inverted::{InvertedFlow, PLAIN, TIMED, pack};
 use super::log::{Log, Origin};
 use super::method::{Dop853, Method, Rk4, Tsit5};
 use super::walk::{Bounds, Control, End, Stop, walk};
-use super::{AffineFlow, Fate, Path, Query, Ray, Side, Tracer};
+use super::{AffineFlow, Fate, Hit, ObstacleTracer, Obstacles, Path, Query, Ray, Side, Tracer};
 use crate::lanes::Level;
 use crate::metric::{Inverted, Metric};
 use crate::tensor::dot;
@@ -48,6 +48,9 @@ const CAUTION: f64 = 3.0;
 /// A photon that rises through the horizon changes sheets at this multiple of its radius, and
 /// falling cameras within it start on the ingoing sheet.
 pub const EXIT: f64 = 1.1;
+
+/// What stands in a ray's way, if anything.
+type Way<'a> = Option<&'a dyn Obstacles>;
 
 /// A tracer that integrates.
 ///
@@ -96,8 +99,9 @@ impl<M: Metric> Integrator<M> {
         Control { tolerance, step, max_steps: self.max_steps, max_turn: MAX_TURN }
     }
 
-    /// From inside the horizon, or next to it, to outside it in ingoing coordinates, then on.
-    fn rise(&self, ray: &Ray, query: &Query, path: &mut Path) {
+    /// From inside the horizon, or next to it, to outside it in ingoing coordinates, then on. Obstacles are outside of
+    /// [`EXIT`].
+    fn rise(&self, ray: &Ray, query: &Query, way: Way<'_>, path: &mut Path) {
         let metric = self.ingoing;
         let inverse_horizon = 1.0 / metric.horizon();
         let inside = metric.inverse_radius(ray.start.w, &ray.start.n) >= inverse_horizon;
@@ -129,7 +133,7 @@ impl<M: Metric> Integrator<M> {
                     azimuth: ray.azimuth + end.swept - before + after,
                 };
                 // Boyer–Lindquist time diverges at the horizon, so none has elapsed from there.
-                self.follow(&outside, &Query { elapsed: false, points: 0, ..*query }, path);
+                self.follow(&outside, &Query { elapsed: false, points: 0, ..*query }, way, path);
             }
             _ => path.fate = Fate::StepLimit,
         }
@@ -150,15 +154,17 @@ impl<M: Metric> Integrator<M> {
     }
 
     /// Outside the horizon, in the reversed spacetime.
-    fn follow(&self, ray: &Ray, query: &Query, path: &mut Path) {
+    fn follow(&self, ray: &Ray, query: &Query, way: Way<'_>, path: &mut Path) {
         let timed = query.elapsed || query.points > 0;
         match (self.scheme, timed) {
-            (Scheme::Rk4 { .. }, false) => self.follow_affine::<6, PLAIN>(ray, query, path),
-            (Scheme::Rk4 { .. }, true) => self.follow_affine::<7, TIMED>(ray, query, path),
-            (Scheme::Tsit5 { .. }, false) => self.follow_inverted::<Tsit5, PLAIN, 6>(ray, query, path),
-            (Scheme::Tsit5 { .. }, true) => self.follow_inverted::<Tsit5, TIMED, 6>(ray, query, path),
-            (Scheme::Dop853 { .. }, false) => self.follow_inverted::<Dop853, PLAIN, 12>(ray, query, path),
-            (Scheme::Dop853 { .. }, true) => self.follow_inverted::<Dop853, TIMED, 12>(ray, query, path),
+            (Scheme::Rk4 { .. }, false) => self.follow_affine::<6, PLAIN>(ray, query, way, path),
+            (Scheme::Rk4 { .. }, true) => self.follow_affine::<7, TIMED>(ray, query, way, path),
+            (Scheme::Tsit5 { .. }, false) => self.follow_inverted::<Tsit5, PLAIN, 6>(ray, query, way, path),
+            (Scheme::Tsit5 { .. }, true) => self.follow_inverted::<Tsit5, TIMED, 6>(ray, query, way, path),
+            (Scheme::Dop853 { .. }, false) => {
+                self.follow_inverted::<Dop853, PLAIN, 12>(ray, query, way, path);
+            }
+            (Scheme::Dop853 { .. }, true) => self.follow_inverted::<Dop853, TIMED, 12>(ray, query, way, path),
         }
     }
 
@@ -170,17 +176,25 @@ impl<M: Metric> Integrator<M> {
         &self,
         ray: &Ray,
         query: &Query,
+        way: Way<'_>,
         path: &mut Path,
     ) {
         let flow = InvertedFlow { metric: self.reversed, energy: ray.energy };
         let y = pack::<f64, D>(&ray.start);
-        let mut log = Log::new(&flow, self.reversed, query, Origin::of(&self.reversed, ray, query), path);
+        let origin = Origin::of(&self.reversed, ray, query);
+        let mut log = Log::new(&flow, self.reversed, query, origin, path).among(way);
         let end = log.walk::<R, STAGES>(y, &self.bounds(query), &self.control());
         self.conclude(ray, &flow, &end, ray.azimuth + end.swept, path);
     }
 
     /// `A` components in the affine chart, then `D` in the inverted one.
-    fn follow_affine<const A: usize, const D: usize>(&self, ray: &Ray, query: &Query, path: &mut Path) {
+    fn follow_affine<const A: usize, const D: usize>(
+        &self,
+        ray: &Ray,
+        query: &Query,
+        way: Way<'_>,
+        path: &mut Path,
+    ) {
         if ray.start.w <= 0.0 {
             // A constant step cannot come in from infinity.
             path.fate = Fate::StepLimit;
@@ -190,7 +204,7 @@ impl<M: Metric> Integrator<M> {
         let limit = 2.0 * ray.start.w.recip().max(50.0);
         let near = BoundedAffine { flow: AffineFlow { metric, energy }, limit };
         let origin = Origin::of(&metric, ray, query);
-        let mut log = Log::new(&near, metric, query, origin, path);
+        let mut log = Log::new(&near, metric, query, origin, path).among(way);
         let y: [f64; A] = near.start(&ray.start);
         let end = log.walk::<Rk4, 4>(y, &self.bounds(query), &self.control());
         if end.stop != Stop::Left {
@@ -205,7 +219,7 @@ impl<M: Metric> Integrator<M> {
         }
         let azimuth = ray.azimuth + end.swept;
         let rest = Query { points: 0, ..*query };
-        let mut log = Log::new(&far, metric, &rest, Origin { azimuth, ..origin }, path);
+        let mut log = Log::new(&far, metric, &rest, Origin { azimuth, ..origin }, path).among(way);
         let end = log.walk::<Dop853, 12>(y, &self.bounds(query), &self.fine_control());
         self.conclude(ray, &far, &end, azimuth + end.swept, path);
     }
@@ -233,6 +247,12 @@ impl<M: Metric> Integrator<M> {
                 Fate::Escaped
             }
             Stop::Fell | Stop::Rose | Stop::Sank => Fate::Captured,
+            Stop::Met(object) => {
+                let position = state.n.map(|c| c / state.w);
+                let momentum = state.momentum();
+                path.hit = Some(Hit { object, position, momentum, energy: chart.energy() });
+                Fate::Hit
+            }
             Stop::GaveUp => Fate::StepLimit,
         };
     }
@@ -244,16 +264,7 @@ impl<M: Metric> Tracer for Integrator<M> {
     }
 
     fn trace(&self, ray: &Ray, query: &Query, path: &mut Path) {
-        path.clear();
-        match ray.side {
-            Side::Reversed => {
-                self.follow(ray, query, path);
-                if query.windings {
-                    path.windings = self.reversed.windings(ray.energy, &ray.start);
-                }
-            }
-            Side::Ingoing => self.rise(ray, query, path),
-        }
+        self.trace_along(ray, query, None, path);
     }
 
     /// On lanes, but for rays of constant steps, those whose time or points are wanted, and those of cameras inside
@@ -281,7 +292,26 @@ impl<M: Metric> Tracer for Integrator<M> {
     }
 }
 
+impl<M: Metric> ObstacleTracer for Integrator<M> {
+    fn trace_among(&self, ray: &Ray, query: &Query, obstacles: &dyn Obstacles, path: &mut Path) {
+        self.trace_along(ray, query, Some(obstacles), path);
+    }
+}
+
 impl<M: Metric> Integrator<M> {
+    fn trace_along(&self, ray: &Ray, query: &Query, way: Way<'_>, path: &mut Path) {
+        path.clear();
+        match ray.side {
+            Side::Reversed => {
+                self.follow(ray, query, way, path);
+                if query.windings {
+                    path.windings = self.reversed.windings(ray.energy, &ray.start);
+                }
+            }
+            Side::Ingoing => self.rise(ray, query, way, path),
+        }
+    }
+
     /// Rays of [`Side::Reversed`], on lanes where they are wide enough to pay.
     fn trace_abreast(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
         for path in &mut *paths {
@@ -291,7 +321,7 @@ impl<M: Metric> Integrator<M> {
         let task = Task { integrator: self, rays, query, paths: &mut *paths, corrections };
         if self.level.run_wide(task).is_err() {
             for (ray, path) in rays.iter().zip(&mut *paths) {
-                self.follow(ray, query, path);
+                self.follow(ray, query, None, path);
             }
         }
         if query.windings {
@@ -309,7 +339,7 @@ macro_rules! compiled {
         impl Integrator<$metric> {
             /// As one of many kinds of tracers; of this metric its code is compiled already.
             #[inline(never)]
-            pub fn boxed(self) -> Box<dyn Tracer> {
+            pub fn boxed(self) -> Box<dyn ObstacleTracer> {
                 Box::new(self)
             }
         }

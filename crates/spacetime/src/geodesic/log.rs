@@ -2,8 +2,9 @@
 
 use super::chart::Chart;
 use super::method::Method;
+use super::segment::{Curve, Segment};
 use super::walk::{Bounds, Control, End, Visitor, walk};
-use super::{Crossing, Dense, Path, Query, Ray};
+use super::{Crossing, Dense, Obstacles, Path, Query, Ray};
 use crate::metric::{Inverted, Metric};
 
 /// Where elapsed time and azimuth are counted from.
@@ -40,7 +41,7 @@ impl Origin {
 }
 
 /// One step of a walk, kept to be sampled.
-struct Segment<const D: usize> {
+struct Kept<const D: usize> {
     dense: Dense<f64, D>,
     /// Parameter at its start.
     sigma: f64,
@@ -56,12 +57,18 @@ pub struct Log<'a, C, M, const D: usize> {
     query: &'a Query,
     origin: Origin,
     path: &'a mut Path,
-    segments: Vec<Segment<D>>,
+    segments: Vec<Kept<D>>,
+    obstacles: Option<&'a dyn Obstacles>,
 }
 
 impl<'a, C: Chart<f64, D>, M: Metric, const D: usize> Log<'a, C, M, D> {
     pub fn new(chart: &'a C, metric: M, query: &'a Query, origin: Origin, path: &'a mut Path) -> Self {
-        Self { chart, metric, query, origin, path, segments: Vec::new() }
+        Self { chart, metric, query, origin, path, segments: Vec::new(), obstacles: None }
+    }
+
+    /// The same with things in the way.
+    pub fn among(self, obstacles: Option<&'a dyn Obstacles>) -> Self {
+        Self { obstacles, ..self }
     }
 
     /// Walks, and samples the points if any are wanted.
@@ -71,11 +78,13 @@ impl<'a, C: Chart<f64, D>, M: Metric, const D: usize> Log<'a, C, M, D> {
         bounds: &Bounds,
         control: &Control,
     ) -> End<D> {
-        if self.query.points == 0 {
+        if self.query.points == 0 && self.obstacles.is_none() {
             return walk::<_, R, _, D, STAGES>(self.chart, y, bounds, control, self);
         }
-        let end = walk::<_, R, _, D, STAGES>(self.chart, y, bounds, control, &mut Recorder(self));
-        self.sample();
+        let end = walk::<_, R, _, D, STAGES>(self.chart, y, bounds, control, &mut Scout(self));
+        if self.query.points > 0 {
+            self.sample();
+        }
         end
     }
 
@@ -86,7 +95,7 @@ impl<'a, C: Chart<f64, D>, M: Metric, const D: usize> Log<'a, C, M, D> {
 
     /// Points evenly spaced in the walk's parameter, over the part of the ray that is near.
     fn sample(&mut self) {
-        let w = |s: &Segment<D>, share: f64| self.chart.state(&s.dense.at(share)).w;
+        let w = |s: &Kept<D>, share: f64| self.chart.state(&s.dense.at(share)).w;
         let samples = || {
             let share = |k: i32| f64::from(k) / 32.0;
             self.segments.iter().flat_map(move |s| (0..=32).map(move |k| (s, share(k) * s.until)))
@@ -137,20 +146,30 @@ impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D
         });
     }
 
-    fn segment(&mut self, _dense: &Dense<f64, D>, _sigma: f64, _h: f64, _until: f64) {}
+    fn segment(&mut self, _: &Dense<f64, D>, _: f64, _: f64, _: f64) -> Option<(f64, usize)> {
+        None
+    }
 }
 
-/// A log that keeps every step too.
-struct Recorder<'a, 'b, C, M, const D: usize>(&'a mut Log<'b, C, M, D>);
+/// A log that looks at every step too: for what is in the way, and to keep it if points are wanted.
+struct Scout<'a, 'b, C, M, const D: usize>(&'a mut Log<'b, C, M, D>);
 
-impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Recorder<'_, '_, C, M, D> {
+impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Scout<'_, '_, C, M, D> {
     const WANTS_SEGMENTS: bool = true;
 
     fn crossing(&mut self, y: &[f64; D], swept: f64) {
         self.0.crossing(y, swept);
     }
 
-    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) {
-        self.0.segments.push(Segment { dense: *dense, sigma, h, until });
+    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) -> Option<(f64, usize)> {
+        let met = self.0.obstacles.and_then(|obstacles| {
+            let curve = Curve::of_step(dense, C::PLACE, C::DIVISOR, until);
+            obstacles.first(&Segment::Curve(curve)).map(|(share, number)| (share * until, number))
+        });
+        if self.0.query.points > 0 {
+            let until = met.map_or(until, |(theta, _)| theta);
+            self.0.segments.push(Kept { dense: *dense, sigma, h, until });
+        }
+        met
     }
 }

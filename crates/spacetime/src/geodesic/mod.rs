@@ -10,6 +10,7 @@ mod inverted;
 mod log;
 mod method;
 mod ray;
+mod segment;
 mod straight;
 mod walk;
 mod winding;
@@ -21,6 +22,7 @@ pub use integrator::{EXIT, Integrator, Scheme};
 pub use inverted::InvertedFlow;
 pub use method::{Dop853, Method, Rk4, Step, Tsit5};
 pub use ray::{Ray, Side};
+pub use segment::{Curve, Line, Segment};
 pub use straight::Straight;
 
 use crate::tensor::Vec3;
@@ -32,6 +34,8 @@ pub enum Fate {
     Escaped,
     /// It comes out of the past horizon: no light of ours.
     Captured,
+    /// It comes from something in the way; see [`Path::hit`].
+    Hit,
     /// Given up: too many steps, or steps that cannot be made small enough.
     #[default]
     StepLimit,
@@ -75,13 +79,28 @@ pub struct Crossing {
     pub elapsed: f64,
 }
 
+/// Where a ray meets something that is in its way.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// The number that the [`Obstacles`] gave it.
+    pub object: usize,
+    /// Place in the coordinates of [`Side::Reversed`], M.
+    pub position: Vec3<f64>,
+    /// Momentum p_i there, of the photon reversed: it points from the camera on.
+    pub momentum: Vec3<f64>,
+    /// −p_t.
+    pub energy: f64,
+}
+
 /// What a tracer finds.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Path {
     /// How the ray ends.
     pub fate: Fate,
-    /// Crossings in the order met going back from the camera.
+    /// Crossings in the order met going back from the camera, those before the hit if there is one.
     pub crossings: Vec<Crossing>,
+    /// What was met, for [`Fate::Hit`].
+    pub hit: Option<Hit>,
     /// Asymptotic direction (θ, φ) that the light comes from, φ unwrapped, if it escaped.
     pub direction: Option<[f64; 2]>,
     /// How often light went round the hole, if asked for: periods of its motion in θ
@@ -102,12 +121,26 @@ impl Path {
     pub fn clear(&mut self) {
         self.fate = Fate::StepLimit;
         self.crossings.clear();
+        self.hit = None;
         self.direction = None;
         self.steps = 0;
         self.windings = f64::NAN;
         self.error_estimate = f64::NAN;
         self.points.clear();
     }
+}
+
+/// Things that stand in the way of rays, in the Cartesian coordinates of [`Side::Reversed`].
+pub trait Obstacles: Sync {
+    /// The first that a piece of a ray meets: where on the piece, and its number.
+    fn first(&self, segment: &Segment) -> Option<(f64, usize)>;
+}
+
+/// A tracer that follows a ray's course piece by piece, and so finds what stands in the way.
+pub trait ObstacleTracer: Tracer {
+    /// As [`Tracer::trace`]; a ray that meets one of `obstacles` ends there. One of a camera inside the horizon, or less
+    /// than [`EXIT`] horizons from the hole, meets them only once it is farther out.
+    fn trace_among(&self, ray: &Ray, query: &Query, obstacles: &dyn Obstacles, path: &mut Path);
 }
 
 /// A way to follow rays. Two independent ones for Kerr test each other.

@@ -1,7 +1,7 @@
 //! Rays of flat spacetime: straight lines, without integration.
 
-use super::{Crossing, Fate, Path, Query, Ray, Tracer};
-use crate::tensor::{cross, dot};
+use super::{Crossing, Fate, Hit, Line, ObstacleTracer, Obstacles, Path, Query, Ray, Segment, Tracer};
+use crate::tensor::{Vec3, cross, dot};
 use std::f64::consts::PI;
 
 /// The tracer of [`crate::metric::Minkowski`].
@@ -70,5 +70,41 @@ impl Tracer for Straight {
                 [-share / w, x, y, z]
             }));
         }
+    }
+}
+
+impl ObstacleTracer for Straight {
+    fn trace_among(&self, ray: &Ray, query: &Query, obstacles: &dyn Obstacles, path: &mut Path) {
+        self.trace(ray, query, path);
+        let line = line(ray);
+        let Some((d, object)) = obstacles.first(&Segment::Line(line)) else { return };
+        let at = |d: f64| -> Vec3<f64> { std::array::from_fn(|i| line.origin[i] + d * line.direction[i]) };
+        let along = |x: &Vec3<f64>| dot(x, &line.direction) - dot(&line.origin, &line.direction);
+        path.crossings.retain(|crossing| along(&crossing.position) < d);
+        path.direction = None;
+        path.fate = Fate::Hit;
+        path.hit = Some(Hit { object, position: at(d), momentum: ray.start.momentum(), energy: ray.energy });
+        for point in &mut path.points {
+            let [_, x, y, z] = *point;
+            // The rest of the way is that to the hit again and again.
+            if along(&[x, y, z]) > d {
+                let [x, y, z] = at(d);
+                *point = [line.start - d, x, y, z];
+            }
+        }
+    }
+}
+
+/// The ray as a line, from the camera or, if that is at infinity, about the point closest to the origin.
+fn line(ray: &Ray) -> Line {
+    let p = ray.start.momentum();
+    let length = dot(&p, &p).sqrt();
+    let direction = p.map(|c| c / length);
+    let w = ray.start.w;
+    if w > 0.0 {
+        Line { origin: ray.start.n.map(|c| c / w), direction, start: 0.0 }
+    } else {
+        let origin = cross(&direction, &ray.start.j).map(|c| c / length);
+        Line { origin, direction, start: f64::NEG_INFINITY }
     }
 }

@@ -37,8 +37,9 @@ pub trait Visitor<const D: usize> {
     const WANTS_SEGMENTS: bool;
     /// The plane was crossed at state `y`, `swept` radians of azimuth after the start.
     fn crossing(&mut self, y: &[f64; D], swept: f64);
-    /// A step from parameter `sigma`, of size `h`, counts up to θ = `until`.
-    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64);
+    /// A step from parameter `sigma`, of size `h`, counts up to θ = `until`, unless something stands in the way: then
+    /// the answer is θ there, and its number.
+    fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) -> Option<(f64, usize)>;
 }
 
 /// Why the walk ended.
@@ -52,6 +53,8 @@ pub enum Stop {
     Rose,
     /// It is outside the horizon and on its way in.
     Sank,
+    /// It met what stands in its way, the one of this number.
+    Met(usize),
     /// Steps ran out or could not be made small enough.
     GaveUp,
 }
@@ -143,6 +146,12 @@ where
                 let above_horizon = |t: f64| bounds.inverse_horizon - chart.inverse_radius(&dense.at(t));
                 until = root(above_horizon, above_horizon(0.0), bounds.inverse_horizon - depth);
             }
+            if V::WANTS_SEGMENTS
+                && let Some((theta, number)) = visitor.segment(&dense, sigma, h, until)
+            {
+                until = theta;
+                stop = Some(Stop::Met(number));
+            }
             let level = |t: f64| height(&dense.at(t));
             let meet = |theta: f64| {
                 if theta < until {
@@ -152,9 +161,6 @@ where
             };
             if crosses || grazes {
                 meetings(level, [height(&y), above, below]).into_iter().flatten().for_each(meet);
-            }
-            if V::WANTS_SEGMENTS {
-                visitor.segment(&dense, sigma, h, until);
             }
             if until < 1.0 {
                 next.y = dense.at(until);

@@ -1,11 +1,14 @@
-//! Observers: orthonormal tetrads, and the rays that arrive at them.
+//! Observers and surfaces: orthonormal tetrads, and the rays that arrive at them.
 
 mod impact;
 mod motion;
+mod patch;
+mod site;
 mod tetrad;
 
 pub use impact::impact_ray;
 pub use motion::{Motion, ObserverError, Place, check};
+pub use patch::{Drift, Patch, clearance};
 pub use tetrad::Observer;
 
 use std::f64::consts::{FRAC_PI_2, PI};

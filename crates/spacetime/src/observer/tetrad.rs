@@ -2,10 +2,10 @@
 
 use super::motion::{Motion, ObserverError, Place, check};
 use super::polar_sin_cos;
-use crate::dual::Dual;
+use super::site::Site;
 use crate::geodesic::{EXIT, Ray, Side};
 use crate::metric::{Kerr, Metric, Minkowski};
-use crate::tensor::{Tensor, Vec3, Vec4, contract, pair, product};
+use crate::tensor::{Tensor, Vec3, Vec4, contract, pair};
 
 /// An observer's orthonormal tetrad (u, e_r, e_θ, e_φ), in the chart in which the rays that
 /// arrive there are followed.
@@ -27,8 +27,6 @@ pub struct Observer {
     position: Vec3<f64>,
     /// g_{μν} at the place.
     metric: Tensor<f64>,
-    /// u.
-    velocity: Vec4<f64>,
     /// e_r, e_θ, e_φ.
     axes: [Vec4<f64>; 3],
     /// u, e_r, e_θ, e_φ with lower indices.
@@ -65,7 +63,6 @@ impl Observer {
     /// In the chart `metric` with spin s.
     fn build<M: Metric>(metric: &M, s: f64, place: &Place, motion: &Motion, side: Side) -> Self {
         let r = place.r;
-        let (sin, cos) = polar_sin_cos(place.theta);
         let azimuth = place.phi
             + if r > metric.horizon() {
                 metric.azimuth_offset(r)
@@ -73,54 +70,23 @@ impl Observer {
                 // Inside the horizon azimuth means that of ingoing coordinates.
                 s.atan2(r)
             };
-        let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
-        let width = r.hypot(s);
-        let position = [width * sin * cos_azimuth, width * sin * sin_azimuth, r * cos];
-        let g = metric.components(&position);
-        let across = [0.0, -sin_azimuth, cos_azimuth, 0.0];
-        let down = [0.0, width * cos * cos_azimuth, width * cos * sin_azimuth, -r * sin];
-        let frame = |velocity: Vec4<f64>| {
-            let axes = axes(metric, &position, &g, &velocity, &down, &across);
-            let lowered = [velocity, axes[0], axes[1], axes[2]].map(|v| contract(&g, &v));
-            Self { position, metric: g, velocity, axes, lowered, side, azimuth }
-        };
+        let site = Site::new(metric, s, r, polar_sin_cos(place.theta), azimuth);
         // Time runs backwards in the reversed spacetime, and so do velocities.
         let sense = if side == Side::Reversed { -1.0 } else { 1.0 };
-        let spinning = |rate: f64| {
-            let sweep = rate * width * sin;
-            unit(&g, std::array::from_fn(|i| if i == 0 { 1.0 } else { sweep * across[i] }))
-        };
-        // Zero angular momentum: g(u, ∂φ) = 0 for u ∝ ∂t + ω ∂φ; on the axis ω does not matter.
-        let dragged = || {
-            let time = [1.0, 0.0, 0.0, 0.0];
-            let reach = width * sin;
-            let rate = if reach == 0.0 {
-                0.0
-            } else {
-                -product(&g, &time, &across) / (product(&g, &across, &across) * reach)
-            };
-            spinning(rate)
-        };
-        let falling = || fall(metric, s, &position, r, sense);
-        let boosted = |rest: Vec4<f64>, v: &[f64; 3]| {
-            let base = frame(rest);
-            unit(
-                &g,
-                std::array::from_fn(|i| {
-                    base.velocity[i]
-                        + sense * (v[0] * base.axes[0][i] + v[1] * base.axes[1][i] + v[2] * base.axes[2][i])
-                }),
-            )
-        };
-        frame(match motion {
-            Motion::Static => spinning(0.0),
-            Motion::ZeroAngularMomentum => dragged(),
+        let velocity = match motion {
+            Motion::Static => site.turning(0.0),
+            Motion::ZeroAngularMomentum => site.dragged(),
             // Ω = 1/(r^{3/2} + a) about +z (Bardeen, Press & Teukolsky 1972, eq. 2.16); sense·s = a.
-            Motion::Orbit => spinning(sense / (r * r.sqrt() + sense * s)),
-            Motion::Fall => falling(),
-            Motion::Velocity(v) => boosted(dragged(), v),
-            Motion::VelocityFromFall(v) => boosted(falling(), v),
-        })
+            Motion::Orbit => site.turning(sense / (r * r.sqrt() + sense * s)),
+            Motion::Fall => site.falling(metric, sense),
+            Motion::Velocity(v) => site.boosted(metric, site.dragged(), &v.map(|c| sense * c)),
+            Motion::VelocityFromFall(v) => {
+                site.boosted(metric, site.falling(metric, sense), &v.map(|c| sense * c))
+            }
+        };
+        let axes = site.axes(metric, &velocity);
+        let lowered = [velocity, axes[0], axes[1], axes[2]].map(|v| contract(&site.metric, &v));
+        Self { position: site.position, metric: site.metric, axes, lowered, side, azimuth }
     }
 
     /// Place in the chart, M.
@@ -156,63 +122,4 @@ impl Observer {
         let length = parts.iter().map(|c| c * c).sum::<f64>().sqrt();
         parts.map(|c| c / length)
     }
-}
-
-/// The timelike unit vector along v.
-fn unit(g: &Tensor<f64>, v: Vec4<f64>) -> Vec4<f64> {
-    let length = (-product(g, &v, &v)).sqrt();
-    v.map(|c| c / length)
-}
-
-/// Free fall from rest at infinity, E = 1, L = 0, p_θ = 0: u = −dt̃ + u_r dr with, in ingoing
-/// coordinates, u_r = (2r − √X)/Δ = −2r/(2r + √X), X = 2r(r² + a²); reversed in time it rises,
-/// u_r = (2r + √X)/Δ. In flat space it stays at rest.
-fn fall<M: Metric>(metric: &M, s: f64, position: &Vec3<f64>, r: f64, sense: f64) -> Vec4<f64> {
-    let mass = if metric.horizon() > 0.0 { 1.0 } else { 0.0 };
-    let speed = (2.0 * mass * r * (r * r + s * s)).sqrt();
-    let rate = if mass == 0.0 {
-        0.0
-    } else if sense > 0.0 {
-        -2.0 * r / (2.0 * r + speed)
-    } else {
-        (2.0 * r + speed) / (r * r - 2.0 * r + s * s)
-    };
-    let slope = metric.radius(&Dual::variables(*position)).gradient;
-    let covector = [-1.0, rate * slope[0], rate * slope[1], rate * slope[2]];
-    contract(&metric.inverse_components(position), &covector)
-}
-
-/// e_r, e_θ, e_φ for the velocity u: Gram–Schmidt on ∂φ, then ∂θ, then what is left, with the
-/// orientation of (r, θ, φ).
-fn axes<M: Metric>(
-    metric: &M,
-    position: &Vec3<f64>,
-    g: &Tensor<f64>,
-    u: &Vec4<f64>,
-    down: &Vec4<f64>,
-    across: &Vec4<f64>,
-) -> [Vec4<f64>; 3] {
-    let without = |v: &Vec4<f64>, e: &Vec4<f64>, norm: f64| -> Vec4<f64> {
-        let part = product(g, v, e) * norm;
-        std::array::from_fn(|i| v[i] - part * e[i])
-    };
-    let normed = |v: Vec4<f64>| {
-        let length = product(g, &v, &v).sqrt();
-        v.map(|c| c / length)
-    };
-    let e_phi = normed(without(across, u, -1.0));
-    let e_theta = normed(without(&without(down, u, -1.0), &e_phi, 1.0));
-    // The covector that vanishes on u, e_θ and e_φ, by 3×3 determinants; its sign makes
-    // (u, e_r, e_θ, e_φ) positively oriented.
-    let rows = [u, &e_theta, &e_phi];
-    let covector: Vec4<f64> = std::array::from_fn(|i| {
-        let c: [usize; 3] = std::array::from_fn(|k| if k < i { k } else { k + 1 });
-        let m = |r: usize, k: usize| rows[r][c[k]];
-        let determinant = m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1))
-            - m(0, 1) * (m(1, 0) * m(2, 2) - m(1, 2) * m(2, 0))
-            + m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
-        if i % 2 == 0 { -determinant } else { determinant }
-    });
-    let e_r = normed(contract(&metric.inverse_components(position), &covector));
-    [e_r, e_theta, e_phi]
 }

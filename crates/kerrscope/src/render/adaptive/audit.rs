@@ -1,7 +1,7 @@
 //! How well a picture is interpolated: samples picked by chance are traced as well.
 
 use super::knot::{Knots, difference};
-use crate::render::sampling::mix;
+use crate::random::mix;
 use crate::render::stage::{Replay, Stage};
 use crate::render::tally::{Tally, worse};
 

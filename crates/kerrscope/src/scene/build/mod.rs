@@ -3,6 +3,7 @@
 mod coordinates;
 mod disk;
 mod display;
+mod object;
 mod observer;
 mod screen;
 mod sky;
@@ -47,6 +48,7 @@ pub(super) fn build(
         observer,
         screen: builder.screen(&file.screen, spacetime, observer),
         disk: builder.disk(&file.disk, spacetime),
+        objects: builder.objects(&file.object, spacetime),
         sky: builder.sky(&file.sky),
         render: builder.render(&file, spacetime, observer.place),
         display: builder.display(&file.camera.display),
@@ -70,7 +72,7 @@ impl Builder<'_> {
         let within = |inner: &str, outer: &str| {
             inner
                 .strip_prefix(outer)
-                .is_some_and(|rest| outer.is_empty() || rest.is_empty() || rest.starts_with('.'))
+                .is_some_and(|rest| outer.is_empty() || rest.is_empty() || rest.starts_with(['.', '[']))
         };
         let doubtful =
             |key: &str| self.removed.iter().any(|removed| within(key, removed) || within(removed, key));
@@ -84,21 +86,21 @@ impl Builder<'_> {
 
     fn spacetime(&mut self, file: &file::Spacetime) -> Spacetime {
         let spin = file.spin.unwrap_or_default();
-        let (hole, spacetime) = match file.name {
-            SpacetimeName::Kerr => return Spacetime::Kerr { spin },
+        match file.name {
+            SpacetimeName::Kerr => Spacetime::Kerr { spin },
             SpacetimeName::Schwarzschild => {
-                ("a Schwarzschild black hole does not turn", Spacetime::Schwarzschild)
+                if spin != 0.0 {
+                    self.fault(
+                        &SPACETIME,
+                        format!("a Schwarzschild black hole does not turn: its spin cannot be {spin}"),
+                        "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
+                    );
+                }
+                Spacetime::Schwarzschild
             }
-            SpacetimeName::Minkowski => ("flat space does not turn", Spacetime::Minkowski),
-        };
-        if spin != 0.0 {
-            self.fault(
-                &SPACETIME,
-                format!("{hole}: its spin cannot be {spin}"),
-                "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
-            );
+            // A scene's hole is put away, and its spin with it, to see the rest without it.
+            SpacetimeName::Minkowski => Spacetime::Minkowski,
         }
-        spacetime
     }
 
     fn render(&mut self, scene: &SceneFile, spacetime: Spacetime, place: Place) -> Render {
@@ -137,7 +139,15 @@ impl Builder<'_> {
         let pays = spacetime != Spacetime::Minkowski
             && file.method == Method::Dop853
             && file.samples >= ADAPTIVE_SAMPLES;
-        let adaptive = file.adaptive.unwrap_or(pays);
+        let things = !scene.object.is_empty();
+        if things && file.adaptive == Some(true) {
+            self.fault(
+                &["render.adaptive", "object"],
+                "a scene with things is not interpolated between rays: light is scattered on many ways",
+                "remove `render.adaptive`, or the things",
+            );
+        }
+        let adaptive = !things && file.adaptive.unwrap_or(pays);
         Render {
             width: file.width,
             height: file.height,
@@ -150,6 +160,8 @@ impl Builder<'_> {
             step: file.step.unwrap_or(file::RK4_STEP),
             max_steps: file.max_steps,
             max_crossings: file.max_crossings,
+            bounces: file.bounces,
+            shifts: file.shifts,
             adaptive: adaptive.then_some(file.adaptive_error),
             layers: layers.into_iter().collect(),
         }
@@ -170,6 +182,12 @@ impl Builder<'_> {
                 &["render.engine", "disk.tilt"][..],
                 "the closed form finds crossings of the equatorial plane only, and the disk is tilted",
                 "choose `render.engine = \"integrator\"`, or set `disk.tilt = 0`",
+            ))
+        } else if !scene.object.is_empty() {
+            Some((
+                &["render.engine", "object"][..],
+                "the closed form goes from one crossing of the plane to the next, and does not see things on the way",
+                "choose `render.engine = \"integrator\"`, or remove the things",
             ))
         } else if method != Method::Dop853 {
             Some((

@@ -12,6 +12,9 @@ impl Builder<'_> {
         let picture = match file.kind {
             SkyKind::Black => SkyPicture::Black,
             SkyKind::Uniform => SkyPicture::Uniform { color },
+            SkyKind::Gradient => {
+                SkyPicture::Gradient { horizon: color, zenith: file.zenith.unwrap_or_default() }
+            }
             SkyKind::Grid => SkyPicture::Grid { color, spacing: self.spacing(file).to_radians() },
             SkyKind::Panorama => SkyPicture::Panorama {
                 path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),

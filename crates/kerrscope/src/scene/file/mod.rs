@@ -5,6 +5,7 @@
 //! depends on several keys at once is checked when a [`Scene`](super::Scene) is built.
 
 mod disk;
+mod object;
 mod observer;
 mod render;
 mod screen;
@@ -12,6 +13,8 @@ mod sky;
 mod spacetime;
 
 pub use disk::{Disk, DiskModel, Inner, Isco};
+pub use object::{Object, ObjectMotion, ObjectMotionName, ShapeName, Texture, TextureKind};
+pub(super) use object::{SHAPE_USES as OBJECT_SHAPE_USES, TEXTURE_USES as OBJECT_TEXTURE_USES};
 pub use observer::{Motion, MotionName, Observer, RelativeTo, Velocity};
 pub(super) use render::RK4_STEP;
 pub use render::{Camera, Display, Render};
@@ -38,6 +41,9 @@ pub struct SceneFile {
     pub screen: Screen,
     /// What shines around the hole.
     pub disk: Disk,
+    /// Things that scatter light or shine, each a section of its own; at most 100,000.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub object: Vec<Object>,
     /// What is seen where light comes from infinity.
     pub sky: Sky,
     /// How finely and how exactly the picture is computed.
@@ -56,6 +62,7 @@ impl SceneFile {
             observer: self.observer.complete(),
             screen: self.screen.complete(),
             disk: self.disk.complete(),
+            object: self.object.iter().map(Object::complete).collect(),
             sky: self.sky.complete(),
             render: self.render.complete(),
             camera: self.camera.clone(),

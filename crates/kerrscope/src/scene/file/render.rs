@@ -47,6 +47,13 @@ pub struct Render {
     /// behind is seen through the rest.
     #[schemars(range(min = 1, max = 64))]
     pub max_crossings: u32,
+    /// How often light is scattered or reflected by things at most; what has been on a longer way is missing.
+    #[schemars(range(min = 0, max = 1000))]
+    pub bounces: u32,
+    /// In a scene with things, whether light carries its shift: from leg to leg of its way, its radiance changes by
+    /// (ν received/ν sent)⁴. Without it, as in the thesis, surfaces look alike wherever they are and however they move. The
+    /// disk's light is as it is drawn either way.
+    pub shifts: bool,
     /// Whether rays are traced where they are needed and what lies between is interpolated; without it,
     /// where that pays. Data layers are always traced.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -76,6 +83,8 @@ impl Default for Render {
             step: None,
             max_steps: 10_000,
             max_crossings: 8,
+            bounces: 50,
+            shifts: true,
             adaptive: None,
             adaptive_error: 1e-4,
             layers: Vec::new(),

@@ -6,6 +6,8 @@ use serde::{Deserialize, Serialize};
 use crate::sky::Frame;
 
 const COLOR: [f64; 3] = [0.2, 0.34, 0.55];
+const HORIZON: [f64; 3] = [1.0; 3];
+const ZENITH: [f64; 3] = [0.5, 0.7, 1.0];
 const SPACING: f64 = 15.0;
 const BRIGHTNESS: f64 = 1.0;
 const LONGITUDE: f64 = 180.0;
@@ -18,11 +20,15 @@ const ROTATION: [f64; 3] = [0.0; 3];
 pub struct Sky {
     /// What the sky looks like.
     pub kind: SkyKind,
-    /// Colour [red, green, blue] in sRGB: of a "uniform" sky, or of the lines of a "grid";
-    /// [0.2, 0.34, 0.55] if not given.
+    /// Colour [red, green, blue] in sRGB: of a "uniform" sky, or of the lines of a "grid"
+    /// ([0.2, 0.34, 0.55] if not given), or of a "gradient" at the horizon and below ([1, 1, 1]).
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "[f64; 3]", inner(range(min = 0, max = 1)))]
     pub color: Option<[f64; 3]>,
+    /// Colour [red, green, blue] in sRGB of a "gradient" towards +z; [0.5, 0.7, 1] if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "[f64; 3]", inner(range(min = 0, max = 1)))]
+    pub zenith: Option<[f64; 3]>,
     /// Factor on the sky's light.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(min = 0, max = 1e12), extend("default" = BRIGHTNESS))]
@@ -67,6 +73,8 @@ pub enum SkyKind {
     Black,
     /// The same everywhere.
     Uniform,
+    /// A blue sky: from one colour at the horizon to another at the zenith.
+    Gradient,
     /// Lines of equal θ and of equal φ.
     Grid,
     /// The stars of our sky down to magnitude 8, and the Milky Way.
@@ -91,8 +99,9 @@ pub enum ImageFrame {
 
 /// The kinds that take notice of each key, but for `kind` and `brightness`; of `frame` a panorama
 /// takes none if it is drawn in the coordinates of the scene.
-pub(in crate::scene) const USES: [(&str, &[SkyKind]); 7] = [
-    ("color", &[SkyKind::Uniform, SkyKind::Grid]),
+pub(in crate::scene) const USES: [(&str, &[SkyKind]); 8] = [
+    ("color", &[SkyKind::Uniform, SkyKind::Gradient, SkyKind::Grid]),
+    ("zenith", &[SkyKind::Gradient]),
     ("spacing", &[SkyKind::Grid]),
     ("image", &[SkyKind::Panorama]),
     ("frame", &[SkyKind::Stars, SkyKind::Panorama]),
@@ -109,11 +118,13 @@ impl Sky {
             return Self { kind, ..Self::default() };
         }
         let uses = |key| USES.iter().any(|(k, kinds)| *k == key && kinds.contains(&kind));
+        let color = if kind == SkyKind::Gradient { HORIZON } else { COLOR };
         let image_frame = self.image_frame.or(uses("image_frame").then(ImageFrame::default));
         let framed = uses("frame") && image_frame != Some(ImageFrame::Scene);
         Self {
             kind,
-            color: self.color.or(uses("color").then_some(COLOR)),
+            color: self.color.or(uses("color").then_some(color)),
+            zenith: self.zenith.or(uses("zenith").then_some(ZENITH)),
             brightness: self.brightness.or(Some(BRIGHTNESS)),
             spacing: self.spacing.or(uses("spacing").then_some(SPACING)),
             image: self.image.clone(),

@@ -11,7 +11,8 @@ const KERR_SPIN: f64 = 0.99;
 pub struct Spacetime {
     /// Which spacetime.
     pub name: SpacetimeName,
-    /// Spin a = J/M² along +z. 0.99 in "kerr"; the others do not turn, so that theirs is 0.
+    /// Spin a = J/M² along +z. 0.99 in "kerr"; "schwarzschild" does not turn, so that it is 0; "minkowski"
+    /// takes no notice of it.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(min = -1, max = 1), extend("default" = KERR_SPIN))]
     pub spin: Option<f64>,
