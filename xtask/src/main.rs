@@ -7,8 +7,11 @@
 //!     cargo xtask fuzz [TARGET] [--seconds N]
 //!                                  libFuzzer on what reads files, 10 minutes a target
 //!     cargo xtask sky-data FOLDER  data of the sky again; see crates/kerrscope/data/README.md
+//!     cargo xtask earth-data FOLDER
+//!                                  data of the Earth again; see there too
 
 mod campaign;
+mod earth_data;
 mod fuzz;
 mod pictures;
 mod sky_data;
@@ -16,8 +19,8 @@ mod sky_data;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str =
-    "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] | sky-data FOLDER";
+const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] \
+     | sky-data FOLDER | earth-data FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -29,6 +32,7 @@ fn main() -> ExitCode {
         ["campaign", name] => campaign::run(&root(), name),
         ["fuzz", ref words @ ..] => fuzz::run(&root(), words),
         ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
+        ["earth-data", folder] => earth_data::write(&root(), Path::new(folder)),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod disk;
 pub mod display;
 pub mod light;
+mod noise;
 pub mod output;
 pub mod render;
 pub mod scene;
