@@ -163,12 +163,12 @@ impl Field {
     /// Interpolated between the four nearest samples.
     fn at(&self, longitude: f64, latitude: f64) -> f64 {
         let per_degree = HEIGHT as f64 / 180.0;
-        let x = (longitude + 180.0) * per_degree - 0.5;
+        // Once around more, so that it is not below 0.
+        let x = (longitude + 180.0) * per_degree - 0.5 + WIDTH as f64;
         let y = ((90.0 - latitude) * per_degree - 0.5).clamp(0.0, (HEIGHT - 1) as f64);
-        let (i, j) = (x.floor(), y as usize);
-        let column = |i: f64| (i as i64).rem_euclid(WIDTH as i64) as usize;
-        let (left, right) = (column(i), column(i + 1.0));
-        let row = |j: usize| lerp(self.0[j * WIDTH + left], self.0[j * WIDTH + right], x - i);
+        let (i, j) = (x as usize, y as usize);
+        let (left, right) = (i % WIDTH, (i + 1) % WIDTH);
+        let row = |j: usize| lerp(self.0[j * WIDTH + left], self.0[j * WIDTH + right], x - i as f64);
         lerp(row(j), row((j + 1).min(HEIGHT - 1)), y - j as f64)
     }
 
@@ -180,16 +180,17 @@ impl Field {
         let weights = gaussian(cells);
         for at in 0..WIDTH * HEIGHT {
             let (x, y) = (at % WIDTH, at / WIDTH);
-            let row = |k: i64| (y as i64 + k).clamp(0, HEIGHT as i64 - 1) as usize;
-            along.0[at] = weighted(&weights, |k| self.0[row(k) * WIDTH + x]);
+            let row = |y: usize| self.0[y * WIDTH + x];
+            along.0[at] =
+                weighted(&weights, row(y), |k| row(y.saturating_sub(k)) + row((y + k).min(HEIGHT - 1)));
         }
         let mut around = along.clone();
         for y in 0..HEIGHT {
             let line = &along.0[y * WIDTH..(y + 1) * WIDTH];
             let weights = gaussian((cells / latitude(y).to_radians().cos()).min(WIDTH as f64 / 12.0));
             for x in 0..WIDTH {
-                let column = |k: i64| (x as i64 + k).rem_euclid(WIDTH as i64) as usize;
-                around.0[y * WIDTH + x] = weighted(&weights, |k| line[column(k)]);
+                around.0[y * WIDTH + x] =
+                    weighted(&weights, line[x], |k| line[(x + WIDTH - k) % WIDTH] + line[(x + k) % WIDTH]);
             }
         }
         around
@@ -204,6 +205,7 @@ fn gaussian(cells: f64) -> Vec<f64> {
     weights.into_iter().map(|w| w / sum).collect()
 }
 
-fn weighted(weights: &[f64], value: impl Fn(i64) -> f64) -> f64 {
-    (1..).zip(&weights[1..]).fold(weights[0] * value(0), |sum, (k, w)| sum + w * (value(k) + value(-k)))
+/// The weighted sum of a number and of the two that are 1, 2, … cells away from it.
+fn weighted(weights: &[f64], middle: f64, two: impl Fn(usize) -> f64) -> f64 {
+    (1..).zip(&weights[1..]).fold(weights[0] * middle, |sum, (k, weight)| sum + weight * two(k))
 }

@@ -45,7 +45,7 @@ impl Coverage {
 /// Where outlines cross the lines of sight, in pixels from the north pole.
 fn crossings(rings: &[Ring], height: usize) -> Vec<Vec<f64>> {
     let mut lines = vec![Vec::new(); 2 * height * LINES];
-    let (around, half) = (lines.len() as i64, i64::from(180 * UNITS));
+    let (around, half) = (lines.len().cast_signed() as i64, i64::from(180 * UNITS));
     // The first line of sight that is not west of a corner, in whole numbers: two edges that meet at a
     // corner, on either side of ±180° too, leave no line out and count none twice. Line k is at the
     // longitude (k + ½) 360° / around − 180°.
