@@ -3,7 +3,7 @@
 //! [`Texture::earth`] draws it. Coasts and lakes are outlines ([`Outlines`], after Natural Earth). **The
 //! colours are a drawing, not a measurement**: no photograph and no data of vegetation, height or ice
 //! stands behind them. They follow from latitude, from how far the prevailing winds have carried air over
-//! land, and from noise. Mountains, rivers, clouds and seasons are not in it.
+//! land, from a few corrections by hand, and from noise. Mountains, rivers, clouds and seasons are not in it.
 //!
 //! The map is equirectangular with north up and longitude 0 in the middle, as the Earth is seen from
 //! outside. With longitude ℓ, positive to the east, and latitude b:
