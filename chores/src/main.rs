@@ -1,6 +1,7 @@
 //! Chores that draw and measure with the library, for `cargo xtask`: pictures, campaigns, fuzzing, data.
 
 mod campaign;
+mod earth_data;
 mod fuzz;
 mod pictures;
 mod sky_data;
@@ -16,7 +17,9 @@ fn main() -> ExitCode {
         ["campaign", name] => campaign::run(&root(), name),
         ["fuzz", ref words @ ..] => fuzz::run(&root(), words),
         ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
-        _ => Err("a chore is pictures, campaign NAME, fuzz [TARGET] or sky-data FOLDER".to_owned()),
+        ["earth-data", folder] => earth_data::write(&root(), Path::new(folder)),
+        _ => Err("a chore is pictures, campaign NAME, fuzz [TARGET], sky-data FOLDER or earth-data FOLDER"
+            .to_owned()),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

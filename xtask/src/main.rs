@@ -7,12 +7,14 @@
 //!     cargo xtask fuzz [TARGET] [--seconds N]
 //!                                  libFuzzer on what reads files, 10 minutes a target
 //!     cargo xtask sky-data FOLDER  data of the sky again; see crates/kerrscope/data/README.md
+//!     cargo xtask earth-data FOLDER
+//!                                  data of the Earth again; see there too
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str =
-    "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] | sky-data FOLDER";
+const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] \
+     | sky-data FOLDER | earth-data FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -20,7 +22,7 @@ fn main() -> ExitCode {
     let outcome = match words[..] {
         ["test"] => test(),
         ["check"] => check(),
-        ["pictures" | "campaign" | "fuzz" | "sky-data", ..] => chores(&words),
+        ["pictures" | "campaign" | "fuzz" | "sky-data" | "earth-data", ..] => chores(&words),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

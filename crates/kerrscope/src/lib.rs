@@ -8,6 +8,7 @@ pub mod disk;
 pub mod display;
 pub mod light;
 pub mod material;
+mod noise;
 pub mod objects;
 pub mod output;
 pub mod random;

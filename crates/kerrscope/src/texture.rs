@@ -17,9 +17,11 @@
 //!   a table when sampled. That loses nothing, and a panorama of 8192×4096 takes 100 MB
 //!   instead of the 400 MB of linear 32-bit numbers; linear 16-bit integers would merge
 //!   the darkest steps of a 16-bit file.
+//! - One picture is drawn, not read: the map of the Earth ([`earth`]).
 //! - Colours are multiplied by alpha before they are interpolated: what colour a fully
 //!   transparent pixel happens to have must not bleed into its neighbours.
 
+pub mod earth;
 mod error;
 mod exr;
 mod jpeg;

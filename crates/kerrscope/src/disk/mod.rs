@@ -3,7 +3,6 @@
 //! A disk is geometry (a plane, two radii) and a surface (what it looks like). Lengths
 //! are in M, angles in radians.
 
-mod noise;
 mod picture;
 mod plane;
 mod ring;

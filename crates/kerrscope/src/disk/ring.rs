@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use super::Place;
-use super::noise::{Noise, lerp, smooth};
 use crate::light::{Light, Sheet};
+use crate::noise::{Noise, lerp, smooth};
 
 /// Bands of pseudo-random opacity, in orange: a disk that shows how light bends. It is a
 /// drawing, not a model of gas.

@@ -1,13 +1,10 @@
-//! Noise in space: random numbers on a lattice, joined smoothly, at several scales.
-//!
-//! The numbers come from an integer hash and the joining uses sums and products alone, so the noise is the same on every
-//! machine.
+//! Cloudy noise in space: value noise at several scales.
 
-use crate::random::{mix, unit};
+use crate::noise::Noise as Scale;
 use crate::spacetime::tensor::Vec3;
 
 /// How many scales are added, each half as large and half as strong as the one before.
-const OCTAVES: u32 = 5;
+const OCTAVES: u64 = 5;
 
 /// Cloudy noise from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,14 +17,15 @@ pub struct Noise {
 impl Noise {
     /// That of a seed, with its largest clouds of about this size, in M.
     pub fn new(seed: u64, size: f64) -> Self {
-        Self { seed: mix(seed), fineness: 1.0 / size }
+        Self { seed, fineness: 1.0 / size }
     }
 
     /// Its value at a place. Finite for any numbers.
     pub fn at(&self, x: &Vec3<f64>) -> f64 {
         let (mut sum, mut most, mut share, mut fineness) = (0.0, 0.0, 1.0, self.fineness);
         for octave in 0..OCTAVES {
-            sum += share * value(self.seed.wrapping_add(u64::from(octave)), &x.map(|c| c * fineness));
+            let at = x.map(|c| if c.is_finite() { c * fineness } else { 0.0 });
+            sum += share * Scale::new(self.seed, octave).space(at);
             most += share;
             share *= 0.5;
             fineness *= 2.0;
@@ -35,26 +33,6 @@ impl Noise {
         // A sum of even numbers is seldom near its ends: three standard deviations are stretched over the range.
         (0.5 + 1.8 * (sum / most - 0.5)).clamp(0.0, 1.0)
     }
-}
-
-/// Noise of one scale, joined with zero slopes: 3t² − 2t³.
-fn value(seed: u64, x: &Vec3<f64>) -> f64 {
-    let cell = x.map(|c| if c.is_finite() { c.floor() } else { 0.0 });
-    let share: Vec3<f64> = std::array::from_fn(|i| {
-        let t = (x[i] - cell[i]).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    });
-    let mut sum = 0.0;
-    for corner in 0..8_u32 {
-        let (mut weight, mut hash) = (1.0, seed);
-        for i in 0..3 {
-            let far = corner >> i & 1 == 1;
-            weight *= if far { share[i] } else { 1.0 - share[i] };
-            hash = mix(hash ^ (cell[i] as i64).wrapping_add(i64::from(far)).cast_unsigned());
-        }
-        sum += weight * unit(hash);
-    }
-    if sum.is_nan() { 0.5 } else { sum }
 }
 
 #[cfg(test)]
