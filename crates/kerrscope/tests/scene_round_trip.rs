@@ -188,12 +188,18 @@ fn cameras() -> impl Strategy<Value = Camera> {
 }
 
 fn textures() -> impl Strategy<Value = Texture> {
-    let kinds = vec![TextureKind::Solid, TextureKind::Checker, TextureKind::Image, TextureKind::Noise];
+    let kinds = vec![
+        TextureKind::Solid,
+        TextureKind::Checker,
+        TextureKind::Image,
+        TextureKind::Noise,
+        TextureKind::Earth,
+    ];
     let numbers =
         (option::of(number(1e-9, 1e9)), option::of(0..=i64::MAX as u64), option::of([1..=9_u32, 1..=9_u32]));
     (sample::select(kinds), option::of(vector(0.0, 1.0)), numbers).prop_map(
         |(kind, color, (size, seed, squares))| match kind {
-            TextureKind::Solid => Texture::default(),
+            TextureKind::Solid | TextureKind::Earth => Texture { kind, ..Texture::default() },
             TextureKind::Checker => Texture { kind, color, squares, ..Texture::default() },
             TextureKind::Image => Texture { kind, path: Some("Cargo.toml".to_owned()), ..Texture::default() },
             TextureKind::Noise => Texture { kind, color, size, seed, ..Texture::default() },

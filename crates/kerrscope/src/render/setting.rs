@@ -46,7 +46,7 @@ pub(super) fn legs(scene: &Scene) -> Result<Option<Legs>, TextureError> {
     if scene.objects.is_empty() {
         return Ok(None);
     }
-    let mut pictures = BTreeMap::new();
+    let mut pictures = Pictures::default();
     let surfaces =
         scene.objects.iter().map(|object| thing(object, &mut pictures)).collect::<Result<_, _>>()?;
     Ok(Some(Legs {
@@ -60,27 +60,43 @@ pub(super) fn legs(scene: &Scene) -> Result<Option<Legs>, TextureError> {
     }))
 }
 
-/// A thing's surface; pictures are loaded once each.
-fn thing<'a>(
-    object: &'a scene::Object,
-    pictures: &mut BTreeMap<&'a Path, Arc<Texture>>,
-) -> Result<ThingSurface, TextureError> {
+/// The pictures on things, each loaded or drawn once.
+#[derive(Default)]
+struct Pictures<'a> {
+    files: BTreeMap<&'a Path, Arc<Texture>>,
+    earth: Option<Arc<Texture>>,
+}
+
+impl<'a> Pictures<'a> {
+    fn file(&mut self, path: &'a Path) -> Result<Arc<Texture>, TextureError> {
+        if let Some(texture) = self.files.get(path) {
+            return Ok(Arc::clone(texture));
+        }
+        let texture = Arc::new(Texture::load(path)?);
+        self.files.insert(path, Arc::clone(&texture));
+        Ok(texture)
+    }
+
+    fn earth(&mut self) -> Arc<Texture> {
+        Arc::clone(self.earth.get_or_insert_with(|| Arc::new(Texture::earth())))
+    }
+}
+
+/// A thing's surface.
+fn thing<'a>(object: &'a scene::Object, pictures: &mut Pictures<'a>) -> Result<ThingSurface, TextureError> {
     let strength = if object.finish == Finish::Light { object.brightness } else { 1.0 };
     let light = |color: [f64; 3]| linear(color) * strength;
     let own = light(object.color);
+    let closed = matches!(object.shape, Shape::Sphere(_));
     let pattern = match &object.pattern {
         ObjectPattern::Solid => Pattern::Solid(own),
         ObjectPattern::Checker { second, squares } => {
             Pattern::Checker { first: own, second: light(*second), squares: squares.map(f64::from) }
         }
         ObjectPattern::Picture { path } => {
-            let texture = match pictures.get(path.as_path()) {
-                Some(texture) => Arc::clone(texture),
-                None => Arc::new(Texture::load(path)?),
-            };
-            pictures.insert(path, Arc::clone(&texture));
-            Pattern::Picture { texture, tint: own, closed: matches!(object.shape, Shape::Sphere(_)) }
+            Pattern::Picture { texture: pictures.file(path)?, tint: own, closed }
         }
+        ObjectPattern::Earth => Pattern::Picture { texture: pictures.earth(), tint: own, closed },
         ObjectPattern::Noise { second, size, seed } => {
             Pattern::Noise { first: own, second: light(*second), noise: Noise::new(*seed, *size) }
         }

@@ -152,6 +152,8 @@ pub enum ObjectPattern {
         /// The file, as seen from the current folder. It existed when the scene was built.
         path: PathBuf,
     },
+    /// The Earth.
+    Earth,
     /// Clouds.
     Noise {
         /// The other colour.

@@ -146,6 +146,7 @@ impl Builder<'_> {
                     file.path.as_deref(),
                 ),
             },
+            TextureKind::Earth => ObjectPattern::Earth,
             TextureKind::Noise => ObjectPattern::Noise {
                 second,
                 size: file.size.unwrap_or(1.0),

@@ -130,6 +130,8 @@ pub enum TextureKind {
     Image,
     /// Clouds of one colour in another.
     Noise,
+    /// The Earth, on a sphere; on other shapes its map.
+    Earth,
 }
 
 /// How the matter of a surface moves.
@@ -182,7 +184,8 @@ pub(in crate::scene) const TEXTURE_USES: [(&str, &[TextureKind]); 5] = [
 impl Object {
     pub(super) fn complete(&self) -> Self {
         let is = |shape| self.shape == shape;
-        let color = if self.texture.kind == TextureKind::Image { WHITE } else { COLOR };
+        let pictured = matches!(self.texture.kind, TextureKind::Image | TextureKind::Earth);
+        let color = if pictured { WHITE } else { COLOR };
         Self {
             normal: self.normal.or(is(ShapeName::Annulus).then_some(NORMAL)),
             inner: self.inner.or(is(ShapeName::Annulus).then_some(0.0)),
