@@ -8,10 +8,13 @@ const PICTURES: [(Option<&str>, &[&str], &str); 8] = [
     (None, &[], "scenes/built-in.png"),
     // Smaller, so that they are no large files.
     (Some("scenes/thesis-4.2.toml"), &["render.width=720", "render.height=405"], "scenes/thesis-4.2.png"),
+    (Some("scenes/thesis-4.3.toml"), &[], "scenes/thesis-4.3.png"),
     (Some("scenes/thesis-4.5.toml"), &["render.width=960", "render.height=540"], "scenes/thesis-4.5.png"),
     (Some("scenes/thesis-4.6.toml"), &[], "scenes/thesis-4.6.png"),
     (Some("scenes/thesis-4.8.toml"), &[], "scenes/thesis-4.8.png"),
     (Some("scenes/balls.toml"), &[], "scenes/balls.png"),
+    (Some("scenes/balls.toml"), &["spacetime.name=minkowski"], "scenes/balls-flat.png"),
+    (Some("scenes/earth.toml"), &[], "scenes/earth.png"),
     (Some("scenes/room.toml"), &[], "scenes/room.png"),
     (Some("scenes/well.toml"), &[], "scenes/well.png"),
 ];

@@ -126,7 +126,8 @@ fn kerr() {
     for spin in [0.0, 0.3, -0.99] {
         let rays = shots(&mut random, spin, 330);
         let of = |ray: &Ray| Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
-        agree(|scheme, level| kerr_tracer(spin, scheme).with_level(level).boxed(), &rays, of, 1e-9);
+        let make = |scheme, level| -> Box<dyn Tracer> { kerr_tracer(spin, scheme).with_level(level).boxed() };
+        agree(make, &rays, of, 1e-9);
     }
 }
 
@@ -142,7 +143,7 @@ fn components() {
     let scheme = Scheme::Dop853 { tolerance: 1e-9 };
     let exact = kerr_tracer(spin, scheme).boxed();
     let of = |ray: &Ray| Kerr::new(-spin).sensitivity(ray.energy, &ray.start);
-    let make = |scheme, level| {
+    let make = |scheme, level| -> Box<dyn Tracer> {
         Integrator::new(Components(Kerr::new(spin)), scheme, 10_000).with_level(level).boxed()
     };
     agree(make, &rays, of, 1e-8);
