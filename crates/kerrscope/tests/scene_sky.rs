@@ -8,7 +8,8 @@ use kerrscope::scene::Scene;
 #[test]
 fn keys_without_effect_on_the_sky() {
     let keys = [
-        ("color = [1, 1, 1]", "\"uniform\"` or \"grid\""),
+        ("color = [1, 1, 1]", "\"uniform\"`, \"gradient\" or \"grid\""),
+        ("zenith = [1, 1, 1]", "\"gradient\"`"),
         ("spacing = 15", "\"grid\"`"),
         ("image = \"Cargo.toml\"", "\"panorama\"`"),
         ("frame = \"galactic\"", "\"stars\"` or \"panorama\""),
@@ -17,7 +18,7 @@ fn keys_without_effect_on_the_sky() {
         ("rotation = [0, 0, 0]", "\"stars\"` or \"panorama\""),
     ];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    for kind in ["uniform", "grid", "stars", "panorama"] {
+    for kind in ["uniform", "gradient", "grid", "stars", "panorama"] {
         for (typed, kinds) in keys {
             let key = format!("sky.{}", typed.split_once(' ').unwrap().0);
             let needed = match kind {
