@@ -10,6 +10,7 @@ mod inverted;
 mod log;
 mod method;
 mod ray;
+mod spherical;
 mod straight;
 mod walk;
 mod winding;
@@ -22,6 +23,7 @@ pub use integrator::{EXIT, Integrator, Scheme};
 pub use inverted::InvertedFlow;
 pub use method::{Dop853, Method, Rk4, Step, Tsit5};
 pub use ray::{Ray, Side};
+pub use spherical::SphericalIntegrator;
 pub use straight::Straight;
 pub(crate) use walk::growth;
 

@@ -1,8 +1,8 @@
 //! The geodesic from one point to another.
 //!
 //! Shooting: a velocity v at the first point leads to x(1; v); Newton's method makes it the second point, with the exact
-//! derivative ∂x(1)/∂v by dual numbers through the integrator. Where the straight line of the coordinates is too bad a
-//! guess, the second point moves there from the first in steps, and then guesses are varied.
+//! derivative ∂x(1)/∂v by dual numbers through the integrator. The second point moves to its place from next to the first
+//! in steps, each from the solution of the one before; where that fails, other guesses are tried.
 
 use super::motion::{Stop, drive, pack, unpack};
 use super::{Geometry, Options, matrix};
@@ -19,7 +19,7 @@ pub struct Search {
 
 impl Default for Search {
     fn default() -> Self {
-        Self { options: Options { tolerance: 1e-13, max_steps: 20_000 }, turns: 1 }
+        Self { options: Options { tolerance: 1e-13, max_steps: 2_000 }, turns: 1 }
     }
 }
 
@@ -60,10 +60,12 @@ pub struct NotConnected {
 
 /// A miss at which a geodesic counts as found, relative to the size of coordinates.
 const HIT: f64 = 1e-11;
-const NEWTON_STEPS: usize = 40;
+const NEWTON_STEPS: usize = 20;
+/// Largest change of a velocity in one step, as a share of it.
+const MOST_CHANGE: f64 = 0.3;
 /// Smallest move of the second point on its way from the first, as a share.
-const LEAST_MOVE: f64 = 1.0 / 512.0;
-const VARIED_STARTS: usize = 12;
+const LEAST_MOVE: f64 = 1.0 / 64.0;
+const VARIED_STARTS: usize = 8;
 
 /// The geodesics from a to b: one for each number of turns of [`Search::turns`] that has one, the shortest first (by
 /// the way in coordinates where lengths may be timelike).
@@ -79,8 +81,8 @@ pub fn between<G: Geometry<N>, const N: usize>(
     let shooter = Shooter { geometry, a, options: &search.options };
     let mut found: Vec<Connected<N>> = Vec::new();
     let mut failure = NotConnected { starts: 0, miss: f64::INFINITY };
-    for target in targets(geometry, a, b, search.turns) {
-        if let Some(connected) = shooter.reach(&target, &mut failure) {
+    for (number, target) in targets(geometry, a, b, search.turns).iter().enumerate() {
+        if let Some(connected) = shooter.reach(target, number == 0, &mut failure) {
             let known = |c: &Connected<N>| {
                 let apart = (0..N).map(|i| (c.velocity[i] - connected.velocity[i]).abs());
                 apart.fold(0.0, f64::max) < 1e-6
@@ -174,11 +176,15 @@ impl<G: Geometry<N>, const N: usize> Shooter<'_, G, N> {
             let wanted = std::array::from_fn(|i| target[i] - shot.end[i]);
             let step = matrix::solve(&shot.slope, &wanted);
             if !step.iter().all(|c| c.is_finite()) {
-                return None;
+                return if share < HIT { Some(self.connected(target, &v, &shot)) } else { None };
             }
+            // A long step may lead to another geodesic than that which the guess is near.
+            let size = |a: &[f64; N]| a.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+            let longest = MOST_CHANGE * size(&v) / size(&step);
             let mut nearer = None;
-            let mut scale = 1.0;
-            while nearer.is_none() && scale > 1e-4 {
+            let mut scale = longest.min(1.0);
+            let least_scale = 0.01 * scale;
+            while nearer.is_none() && scale > least_scale {
                 let tried = std::array::from_fn(|i| v[i] + scale * step[i]);
                 let better = |s: &Shot<N>| Self::miss(&s.end, target)[1] < (1.0 - 0.1 * scale) * share;
                 nearer = self.shoot(&tried).filter(better).map(|s| (tried, s));
@@ -203,19 +209,23 @@ impl<G: Geometry<N>, const N: usize> Shooter<'_, G, N> {
             end: *target,
             norm: matrix::product(&self.geometry.metric(self.a), v, v),
             miss: Self::miss(&shot.end, target)[0],
-            conjugate: !(condition < 1e9),
+            conjugate: !(condition < 1e8),
         }
     }
 
-    /// The straight line first, then a target that moves away, then varied starts.
-    fn reach(&self, target: &[f64; N], failure: &mut NotConnected) -> Option<Connected<N>> {
+    /// A target that moves to its place first, so that what is found belongs to the short geodesics next to the first
+    /// point; if that fails, and it is worth it, the straight line and then varied starts.
+    fn reach(&self, target: &[f64; N], thorough: bool, failure: &mut NotConnected) -> Option<Connected<N>> {
         let chord: [f64; N] = std::array::from_fn(|i| target[i] - self.a[i]);
         failure.starts += 1;
-        if let Some(found) = self.newton(target, &chord, &mut failure.miss) {
+        if let Some(found) = self.creep(target, &chord, failure) {
             return Some(found);
         }
+        if !thorough {
+            return None;
+        }
         failure.starts += 1;
-        if let Some(found) = self.creep(target, &chord, failure) {
+        if let Some(found) = self.newton(target, &chord, &mut failure.miss) {
             return Some(found);
         }
         (1..=VARIED_STARTS).find_map(|k| {

@@ -61,7 +61,9 @@ impl Geometry<4> for BoyerLindquist {
         let (a, a2) = (self.spin, self.spin * self.spin);
         let (r2, sin2) = (r.squared(), sin.squared());
         let sigma = cos.squared() * a2 + r2;
-        let delta = r2 - r * 2.0 + a2;
+        // Δ = (r − r₊)(r − r₋), which keeps its digits at the horizon.
+        let (outer, inner) = horizons(a);
+        let delta = (r - outer) * (r - inner);
         let inverse_sigma = sigma.recip();
         let pull = r * inverse_sigma * 2.0;
         let drag = -(pull * sin2 * a);

@@ -44,7 +44,8 @@ const GAUSS: [f64; 4] = [
 ];
 
 /// Intervals at most: what would need more has a singularity in it.
-const MAX_INTERVALS: usize = 10_000;
+const MAX_INTERVALS: usize = 2_000;
+const LEAST_INTERVAL: f64 = 1e-11;
 
 /// The length of a curve x(s), s from 0 to 1, to a relative `tolerance`. The curve is written for dual numbers, which
 /// know its slope.
@@ -78,7 +79,10 @@ pub fn length<G: Geometry<N>, const N: usize>(
         if !(error > tolerance * (spacelike + timelike)) || parts.len() >= MAX_INTERVALS {
             return Length { spacelike, timelike, error };
         }
-        let worst = (0..parts.len()).fold(0, |a, b| if parts[b].error > parts[a].error { b } else { a });
+        // What is left of a singularity next to an end is so short that it counts as it is.
+        let long = (0..parts.len()).filter(|i| parts[*i].to - parts[*i].from > LEAST_INTERVAL);
+        let worst = long.reduce(|a, b| if parts[b].error > parts[a].error { b } else { a });
+        let Some(worst) = worst else { return Length { spacelike, timelike, error } };
         let Part { from, to, .. } = parts[worst];
         let middle = 0.5 * (from + to);
         parts[worst] = rule(&speed, from, middle);

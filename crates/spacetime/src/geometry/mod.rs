@@ -44,6 +44,9 @@ mod sphere;
 mod trajectory;
 mod velocity;
 
+#[cfg(test)]
+mod tests;
+
 pub use between::{Connected, NotConnected, Search, between};
 pub use boyer_lindquist::BoyerLindquist;
 pub use cartesian::Cartesian;

@@ -126,6 +126,9 @@ pub(super) struct Arrival<S> {
     pub steps: usize,
 }
 
+/// A smaller tolerance would be about rounding.
+const LEAST_TOLERANCE: f64 = 4e-14;
+
 /// A step below this share of the natural one is not made: rounding is all that it would add.
 const LEAST_STEP: f64 = 1e-13;
 
@@ -141,6 +144,9 @@ pub(super) fn drive<S: Scalar, G: Geometry<N>, const N: usize>(
 ) -> Arrival<S> {
     let flow = Hamilton::<G, N>::new(geometry);
     let sense = if length < 0.0 { -1.0 } else { 1.0 };
+    let tolerance = tolerance.max(LEAST_TOLERANCE);
+    // Errors of derivatives are not estimated: their steps are as short as the method needs for them to be small.
+    let longest = if S::ORDER > 0 { 0.25 } else { 1.0 };
     let margin = |y: &[S; WIDTH]| geometry.margin(&std::array::from_fn(|i| y[i].lane(0)));
     let mut slope: [S; WIDTH] = flow.derivative(&y);
     let mut natural = flow.natural(&y, &slope);
@@ -156,7 +162,7 @@ pub(super) fn drive<S: Scalar, G: Geometry<N>, const N: usize>(
         }
         steps += 1;
         let rest = length.abs() - done;
-        h = h.min(natural).min(rest);
+        h = h.min(longest * natural).min(rest);
         let signed = y[0].constant(sense * h);
         let mut stages = [slope; 12];
         let step = Dop853::step(&flow, &y, &mut stages, signed);

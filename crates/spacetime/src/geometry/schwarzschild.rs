@@ -30,7 +30,8 @@ impl Geometry<4> for Schwarzschild {
     }
     fn metric<S: Scalar>(&self, x: &[S; 4]) -> [[S; 4]; 4] {
         let r = x[1];
-        let lapse = -(r.recip() * (2.0 * self.mass)) + 1.0;
+        // 1 − 2M/r, keeping its digits at the horizon.
+        let lapse = (r - 2.0 * self.mass) / r;
         let r2 = r.squared();
         diagonal([-lapse, lapse.recip(), r2, r2 * x[2].sin_cos().0.squared()])
     }

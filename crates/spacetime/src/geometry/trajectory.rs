@@ -7,7 +7,8 @@ use crate::dual::Dual;
 /// How exactly geodesics are integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
-    /// Bound on the error of a step, relative for momenta and for coordinates above 1, 1e-14 to 1e-3.
+    /// Bound on the error of a step, relative for momenta and for coordinates above 1, 4e-14 to 1e-3; what is smaller
+    /// is taken as 4e-14, since rounding is as large.
     pub tolerance: f64,
     /// Steps after which a geodesic is given up, each some 500 bytes.
     pub max_steps: usize,

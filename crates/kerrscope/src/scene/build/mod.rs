@@ -1,5 +1,6 @@
 //! From a scene as typed to a valid one: what depends on several keys, or on files.
 
+mod chart;
 mod coordinates;
 mod disk;
 mod display;
@@ -14,7 +15,7 @@ use kerrscope_spacetime::observer::Place;
 use serde::Serialize;
 
 use super::fault::{Collector, one_line};
-use super::file::{self, DiskModel, SceneFile, SpacetimeName};
+use super::file::{self, Coordinates, DiskModel, SceneFile, SpacetimeName};
 use super::tree::Node;
 use super::valid::{Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
@@ -132,7 +133,8 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
-        let engine = self.engine(scene, spacetime);
+        let coordinates = self.light_coordinates(scene, spacetime, place);
+        let engine = self.engine(scene, spacetime, coordinates);
         // Straight rays are faster than interpolation; whoever asks for a method's steps wants to see its errors.
         let pays = spacetime != Spacetime::Minkowski
             && file.method == Method::Dop853
@@ -145,6 +147,7 @@ impl Builder<'_> {
             seed: file.seed,
             jitter: file.jitter,
             engine,
+            coordinates,
             method: file.method,
             tolerance: file.tolerance,
             step: file.step.unwrap_or(file::RK4_STEP),
@@ -156,7 +159,7 @@ impl Builder<'_> {
     }
 
     /// The engine, chosen if the scene leaves it open.
-    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime) -> Engine {
+    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime, coordinates: Coordinates) -> Engine {
         let tilted = scene.disk.model != DiskModel::None && scene.disk.tilt != 0.0;
         let method = scene.render.method;
         let reason = if spacetime == Spacetime::Minkowski {
@@ -164,6 +167,12 @@ impl Builder<'_> {
                 &["render.engine", "spacetime.name"][..],
                 "flat space has straight rays, not those of the closed form",
                 "remove `render.engine`",
+            ))
+        } else if coordinates != Coordinates::KerrSchild {
+            Some((
+                &["render.engine", "spacetime.coordinates"][..],
+                "the closed form has no coordinates to choose: `spacetime.coordinates` is for the integrator",
+                "choose `render.engine = \"integrator\"`, or remove `spacetime.coordinates`",
             ))
         } else if tilted {
             Some((
