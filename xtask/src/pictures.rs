@@ -4,8 +4,9 @@ use super::cargo;
 use std::path::Path;
 
 /// Scene files (none: the built-in scene), what is set otherwise, and the pictures made of them.
-const PICTURES: [(Option<&str>, &[&str], &str); 4] = [
+const PICTURES: [(Option<&str>, &[&str], &str); 5] = [
     (None, &[], "scenes/built-in.png"),
+    (Some("scenes/thesis-3.2.toml"), &[], "scenes/thesis-3.2.png"),
     // Half as large, so that it is no large file.
     (Some("scenes/thesis-4.5.toml"), &["render.width=960", "render.height=540"], "scenes/thesis-4.5.png"),
     (Some("scenes/thesis-4.6.toml"), &[], "scenes/thesis-4.6.png"),

@@ -214,19 +214,19 @@ impl<G: Geometry<N>, const N: usize> Shooter<'_, G, N> {
     }
 
     /// A target that moves to its place first, so that what is found belongs to the short geodesics next to the first
-    /// point; if that fails, and it is worth it, the straight line and then varied starts.
+    /// point; if that fails, the straight line, and if it is worth it varied starts.
     fn reach(&self, target: &[f64; N], thorough: bool, failure: &mut NotConnected) -> Option<Connected<N>> {
         let chord: [f64; N] = std::array::from_fn(|i| target[i] - self.a[i]);
         failure.starts += 1;
         if let Some(found) = self.creep(target, &chord, failure) {
             return Some(found);
         }
-        if !thorough {
-            return None;
-        }
         failure.starts += 1;
         if let Some(found) = self.newton(target, &chord, &mut failure.miss) {
             return Some(found);
+        }
+        if !thorough {
+            return None;
         }
         (1..=VARIED_STARTS).find_map(|k| {
             failure.starts += 1;

@@ -11,3 +11,6 @@ mod tracer;
 mod walk;
 
 pub use tracer::SphericalIntegrator;
+
+#[cfg(test)]
+mod tests;
