@@ -1,12 +1,13 @@
 //! Geodesics between points, and lengths of curves.
 
+use super::Context;
 use super::numbers::{Numbers, parse_numbers, show};
-use super::{Context, File};
 use crate::report::Failure;
 use crate::{Format, print, print_json};
 use kerrscope::spacetime::geometry::{self, Connected, Geometry, Search, polyline};
 use serde_json::json;
 use std::fmt::Write;
+use std::path::PathBuf;
 
 #[derive(clap::Args, Debug)]
 pub struct Between {
@@ -29,7 +30,7 @@ pub struct Through {
     /// A file with the points of the curve, one a line, numbers with commas between them; a first line
     /// that begins with a letter is left out
     #[arg(long, value_name = "FILE", conflicts_with = "through")]
-    curve: File,
+    curve: Option<PathBuf>,
 }
 
 pub fn between<G: Geometry<N>, const N: usize>(

@@ -12,7 +12,6 @@ use crate::Format;
 use crate::report::Failure;
 use kerrscope::spacetime::geometry::{BuiltIn, Coordinate, Geometry, Nature};
 use numbers::{Numbers, parse_numbers};
-use std::path::PathBuf;
 
 /// Metric, connection, curvature, geodesics and lengths of a geometry of two, three or four dimensions. All is
 /// computed with numbers, exact derivatives included: nothing is printed as a formula. Coordinates are given in
@@ -97,9 +96,6 @@ struct At {
     #[arg(long, value_name = "X,Y,…", value_parser = parse_numbers, allow_hyphen_values = true)]
     at: Numbers,
 }
-
-/// A file of points.
-type File = Option<PathBuf>;
 
 /// What was found, with the geometry that it is about.
 struct Context<'a, G, const N: usize> {

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// A tracer of light around a Kerr hole in Boyer–Lindquist coordinates, which without spin are Schwarzschild's.
 ///
 /// Observers have to be outside the horizon and off the axis: other rays end as [`Fate::StepLimit`]. Rays that fall end
-/// as [`Fate::Captured`] at (1 + 10⁻⁵) r₊. For an observer at infinity there are no times.
+/// as [`Fate::Captured`] at (1 + 10⁻⁵) r₊.
 ///
 /// ```
 /// use kerrscope_spacetime::geodesic::{Path, Query, Scheme, SphericalIntegrator, Tracer};
@@ -55,7 +55,7 @@ impl SphericalIntegrator {
     }
 
     fn follow(&self, ray: &Ray, query: &Query, path: &mut Path) {
-        let first = start::state(&self.hole, ray);
+        let mut first = start::state(&self.hole, ray);
         let brink = self.hole.horizon() * BRINK;
         if first[0] * brink >= 1.0 {
             path.fate = Fate::Captured;
@@ -69,6 +69,7 @@ impl SphericalIntegrator {
             inverted: true,
             timed: query.elapsed || query.points > 0,
         };
+        first[5] = flow.start_time(&first);
         if first[1].sin() < 1e-12 {
             // On the axis itself φ and p_φ say nothing.
             return;
@@ -124,8 +125,6 @@ impl SphericalIntegrator {
                 dot(&start::direction(&self.hole, inverse(y), y[1], y[2]), &query.plane)
             }
         };
-        // From infinity there is no time; later walks go on with the time of the first.
-        let timeless = !query.elapsed || (flow.inverted && first[0] == 0.0);
         let crossings = &mut path.crossings;
         let crossing = |y: &[f64; WIDTH]| {
             if crossings.len() >= query.max_crossings {
@@ -137,7 +136,7 @@ impl SphericalIntegrator {
                 position: place.map(|c| c / u),
                 r: u.recip(),
                 phi: y[2] + if y[1].sin() < 0.0 { PI } else { 0.0 },
-                elapsed: if timeless { f64::NAN } else { y[5] },
+                elapsed: if query.elapsed { flow.elapsed(y) } else { f64::NAN },
             });
         };
         let mut segments = Vec::new();
@@ -176,7 +175,7 @@ impl SphericalIntegrator {
             let y = s.dense.at(((parameter - s.start) / s.h).clamp(0.0, s.until));
             let u = flow.radius(&y).recip();
             let [px, py, pz] = start::direction(&self.hole, u, y[1], y[2]).map(|c| c / u);
-            points.push([-y[5], px, py, pz]);
+            points.push([-flow.elapsed(&y), px, py, pz]);
         }
     }
 
