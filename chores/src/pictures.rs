@@ -4,8 +4,9 @@ use super::cargo;
 use std::path::Path;
 
 /// Scene files (none: the built-in scene), what is set otherwise, and the pictures made of them.
-const PICTURES: [(Option<&str>, &[&str], &str); 8] = [
+const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (None, &[], "scenes/built-in.png"),
+    (Some("scenes/thesis-3.2.toml"), &[], "scenes/thesis-3.2.png"),
     // Smaller, so that they are no large files.
     (Some("scenes/thesis-4.2.toml"), &["render.width=720", "render.height=405"], "scenes/thesis-4.2.png"),
     (Some("scenes/thesis-4.3.toml"), &[], "scenes/thesis-4.3.png"),
@@ -21,7 +22,7 @@ const PICTURES: [(Option<&str>, &[&str], &str); 8] = [
 
 /// Draws them all again.
 pub fn draw(_root: &Path) -> Result<(), String> {
-    for (scene, set, picture) in PICTURES {
+    for (scene, set, picture) in PICTURES.iter().copied() {
         let mut arguments = vec!["run", "--release", "--locked", "--", "render", "-o", picture];
         arguments.extend(set.iter().flat_map(|set| ["--set", set]));
         arguments.extend(scene);
