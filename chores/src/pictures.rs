@@ -6,6 +6,7 @@ use std::path::Path;
 /// Scene files (none: the built-in scene), what is set otherwise, and the pictures made of them.
 const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (None, &[], "scenes/built-in.png"),
+    (Some("scenes/thesis-3.2.toml"), &[], "scenes/thesis-3.2.png"),
     // Smaller, so that they are no large files.
     (Some("scenes/thesis-4.2.toml"), &["render.width=720", "render.height=405"], "scenes/thesis-4.2.png"),
     (Some("scenes/thesis-4.3.toml"), &[], "scenes/thesis-4.3.png"),

@@ -1,5 +1,6 @@
 //! Long checks, each with a dated report that is kept.
 
+mod axis;
 mod resume;
 mod shadow;
 mod speed;
@@ -12,11 +13,16 @@ use time::OffsetDateTime;
 pub fn run(root: &Path, name: &str) -> Result<(), String> {
     let start = Instant::now();
     let (passed, body) = match name {
+        "axis" => axis::run()?,
         "shadow" => shadow::run()?,
         "resume" => resume::run(root)?,
         "speed" => speed::run(root)?,
         "fuzz" => super::fuzz::campaign(root)?,
-        _ => return Err(format!("no campaign is called {name:?}; there are: shadow, resume, speed, fuzz")),
+        _ => {
+            return Err(format!(
+                "no campaign is called {name:?}; there are: axis, shadow, resume, speed, fuzz"
+            ));
+        }
     };
     let date = OffsetDateTime::now_utc().date();
     let verdict = if passed { "passed" } else { "FAILED" };

@@ -13,6 +13,7 @@ mod scene;
 mod shadow;
 mod side_view;
 mod source;
+mod spacetime;
 mod trace;
 mod validate;
 
@@ -55,6 +56,8 @@ enum Command {
     Orbits(orbits::Arguments),
     /// The critical curve: the edge of a hole's shadow
     Shadow(shadow::Arguments),
+    /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
+    Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
     Validate(validate::Arguments),
     /// Rays per second, and how exact they are
@@ -91,6 +94,7 @@ fn main() -> ExitCode {
         Command::Trace(a) => trace::run(&a),
         Command::Orbits(a) => orbits::run(&a),
         Command::Shadow(a) => shadow::run(&a),
+        Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),
         Command::Scene(a) => scene::run(&a),

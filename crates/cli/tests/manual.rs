@@ -58,9 +58,19 @@ fn quiet_and_verbose() {
 
 #[test]
 fn every_command_explains_itself() {
-    for command in
-        ["render", "trace", "orbits", "shadow", "validate", "bench", "scene", "schema", "completions", "man"]
-    {
+    for command in [
+        "render",
+        "trace",
+        "orbits",
+        "shadow",
+        "spacetime",
+        "validate",
+        "bench",
+        "scene",
+        "schema",
+        "completions",
+        "man",
+    ] {
         assert!(text(&[command, "--help"]).contains("Usage"), "{command}");
     }
 }

@@ -11,7 +11,7 @@ use kerrscope::scene::file::{
     ObjectMotionName, Observer, RelativeTo, Render, Screen, ScreenKind, ShapeName, Sky, SkyKind, Spacetime,
     SpacetimeName, Texture, TextureKind, Velocity,
 };
-use kerrscope::scene::{Engine, Method, Scene, SceneFile};
+use kerrscope::scene::{Coordinates, Engine, Method, Scene, SceneFile};
 use kerrscope::sky::Frame;
 use proptest::prelude::*;
 use proptest::{option, sample};
@@ -28,11 +28,28 @@ fn vector(min: f64, max: f64) -> impl Strategy<Value = [f64; 3]> {
     [number(min, max), number(min, max), number(min, max)]
 }
 
+/// Those that every observer is covered by.
+fn coordinates() -> impl Strategy<Value = Option<Coordinates>> {
+    option::of(Just(Coordinates::KerrSchild))
+}
+
 fn spacetimes() -> impl Strategy<Value = Spacetime> {
     prop_oneof![
-        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Kerr, spin }),
-        option::of(Just(0.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Schwarzschild, spin }),
-        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime { name: SpacetimeName::Minkowski, spin }),
+        (option::of(number(-1.0, 1.0)), coordinates()).prop_map(|(spin, coordinates)| Spacetime {
+            name: SpacetimeName::Kerr,
+            spin,
+            coordinates
+        }),
+        (option::of(Just(0.0)), coordinates()).prop_map(|(spin, coordinates)| Spacetime {
+            name: SpacetimeName::Schwarzschild,
+            spin,
+            coordinates
+        }),
+        option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime {
+            name: SpacetimeName::Minkowski,
+            spin,
+            coordinates: None
+        }),
     ]
 }
 

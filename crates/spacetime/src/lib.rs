@@ -13,6 +13,7 @@
 
 pub mod closed;
 pub mod geodesic;
+pub mod geometry;
 pub mod kerr;
 pub mod metric;
 

@@ -114,6 +114,12 @@ impl Stage {
         })
     }
 
+    /// The same with another tracer than the scene asks for: for light in a spacetime that no scene can name. The
+    /// camera, its motion and the disk stay those of the scene.
+    pub fn with_tracer(self, tracer: Box<dyn Tracer>) -> Self {
+        Self { tracer, ..self }
+    }
+
     /// Width and height in pixels.
     pub fn size(&self) -> [u32; 2] {
         self.size

@@ -1,9 +1,9 @@
 //! What traces the rays of a scene.
 
-use crate::scene::{Engine, Method, Scene};
+use crate::scene::{Coordinates, Engine, Method, Scene};
 use crate::spacetime::Level;
 use crate::spacetime::closed::{ClosedForm, NODES};
-use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, Straight, Tracer};
+use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, SphericalIntegrator, Straight, Tracer};
 use crate::spacetime::metric::Kerr;
 
 /// The tracer that a scene asks for, with the instructions of a level.
@@ -12,6 +12,9 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
         (None, _) => Box::new(Straight),
         (Some(spin), Engine::ClosedForm) => {
             Box::new(ClosedForm::new(spin, NODES, scene.render.max_steps as usize).with_level(level))
+        }
+        (Some(spin), _) if scene.render.coordinates != Coordinates::KerrSchild => {
+            Box::new(SphericalIntegrator::new(spin, scheme(scene), scene.render.max_steps as usize))
         }
         (Some(spin), _) => integrator(scene, spin).with_level(level).boxed(),
     }
@@ -26,13 +29,15 @@ pub fn obstacle_tracer(scene: &Scene) -> Box<dyn ObstacleTracer> {
 }
 
 fn integrator(scene: &Scene, spin: f64) -> Integrator<Kerr> {
-    let render = &scene.render;
-    let tolerance = render.tolerance;
-    let scheme = match render.method {
-        Method::Rk4 => Scheme::Rk4 { step: render.step },
+    // A hole without spin has the same coordinates.
+    Integrator::new(Kerr::new(spin), scheme(scene), scene.render.max_steps as usize)
+}
+
+fn scheme(scene: &Scene) -> Scheme {
+    let tolerance = scene.render.tolerance;
+    match scene.render.method {
+        Method::Rk4 => Scheme::Rk4 { step: scene.render.step },
         Method::Tsit5 => Scheme::Tsit5 { tolerance },
         Method::Dop853 => Scheme::Dop853 { tolerance },
-    };
-    // A hole without spin has the same coordinates.
-    Integrator::new(Kerr::new(spin), scheme, render.max_steps as usize)
+    }
 }

@@ -44,7 +44,7 @@ mod valid;
 use std::path::Path;
 
 pub use fault::{Fault, Faults, Source};
-pub use file::SceneFile;
+pub use file::{Coordinates, SceneFile};
 pub use valid::{
     Disk, Display, Engine, Method, Object, ObjectPattern, Observer, Render, Screen, ScreenKind, Sky,
     SkyPicture, Spacetime, Surface,

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::file::Coordinates;
 use crate::disk::Mapping;
 use crate::display::{self, Depth, FalseColor, Picture};
 use crate::material::Finish;
@@ -227,6 +228,8 @@ pub struct Render {
     pub jitter: bool,
     /// What traces the rays; never [`Engine::Auto`].
     pub engine: Engine,
+    /// The coordinates in which they are traced.
+    pub coordinates: Coordinates,
     /// Which method integrates them.
     pub method: Method,
     /// About the error of a ray's direction in radians, away from the critical curve.

@@ -33,17 +33,17 @@ pub enum Scheme {
 
 /// Steps with error control turn by at most this angle: far less than π, within which a plane
 /// through the origin is crossed once, and short enough that few steps are refused.
-const MAX_TURN: f64 = 0.8;
+pub(super) const MAX_TURN: f64 = 0.8;
 
 /// A step's error is held to a share of the tolerance, because strong bending multiplies it
 /// later on. With these the direction of a typical ray errs by a tenth of the tolerance.
-const DOP853_SHARE: f64 = 1.0 / 30.0;
+pub(super) const DOP853_SHARE: f64 = 1.0 / 30.0;
 /// As [`DOP853_SHARE`]: its estimate of a step's error is the more cautious.
-const TSIT5_SHARE: f64 = 1.0 / 6.0;
+pub(super) const TSIT5_SHARE: f64 = 1.0 / 6.0;
 
 /// Estimates are this multiple of the drift of conserved quantities, plus a tenth of the
 /// tolerance for what that cannot show: at most one ray in twenty errs by more.
-const CAUTION: f64 = 3.0;
+pub(super) const CAUTION: f64 = 3.0;
 
 /// A photon that rises through the horizon changes sheets at this multiple of its radius, and
 /// falling cameras within it start on the ingoing sheet.

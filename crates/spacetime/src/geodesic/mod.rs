@@ -11,19 +11,23 @@ mod log;
 mod method;
 mod ray;
 mod segment;
+mod spherical;
 mod straight;
 mod walk;
 mod winding;
 
 pub use affine::AffineFlow;
 pub use dense::Dense;
+pub(crate) use dense::root;
 pub use flow::Flow;
 pub use integrator::{EXIT, Integrator, Scheme};
 pub use inverted::InvertedFlow;
 pub use method::{Dop853, Method, Rk4, Step, Tsit5};
 pub use ray::{Ray, Side};
 pub use segment::{Curve, Line, Segment};
+pub use spherical::SphericalIntegrator;
 pub use straight::Straight;
+pub(crate) use walk::growth;
 
 use crate::tensor::Vec3;
 

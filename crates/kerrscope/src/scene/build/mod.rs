@@ -1,5 +1,6 @@
 //! From a scene as typed to a valid one: what depends on several keys, or on files.
 
+mod chart;
 mod coordinates;
 mod disk;
 mod display;
@@ -15,7 +16,7 @@ use kerrscope_spacetime::observer::Place;
 use serde::Serialize;
 
 use super::fault::{Collector, one_line};
-use super::file::{self, DiskModel, SceneFile, SpacetimeName};
+use super::file::{self, Coordinates, DiskModel, SceneFile, SpacetimeName};
 use super::tree::Node;
 use super::valid::{Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
@@ -134,7 +135,8 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
-        let engine = self.engine(scene, spacetime);
+        let coordinates = self.light_coordinates(scene, spacetime, place);
+        let engine = self.engine(scene, spacetime, coordinates);
         // Straight rays are faster than interpolation; whoever asks for a method's steps wants to see its errors.
         let pays = spacetime != Spacetime::Minkowski
             && file.method == Method::Dop853
@@ -155,6 +157,7 @@ impl Builder<'_> {
             seed: file.seed,
             jitter: file.jitter,
             engine,
+            coordinates,
             method: file.method,
             tolerance: file.tolerance,
             step: file.step.unwrap_or(file::RK4_STEP),
@@ -168,7 +171,7 @@ impl Builder<'_> {
     }
 
     /// The engine, chosen if the scene leaves it open.
-    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime) -> Engine {
+    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime, coordinates: Coordinates) -> Engine {
         let tilted = scene.disk.model != DiskModel::None && scene.disk.tilt != 0.0;
         let method = scene.render.method;
         let reason = if spacetime == Spacetime::Minkowski {
@@ -176,6 +179,12 @@ impl Builder<'_> {
                 &["render.engine", "spacetime.name"][..],
                 "flat space has straight rays, not those of the closed form",
                 "remove `render.engine`",
+            ))
+        } else if coordinates != Coordinates::KerrSchild {
+            Some((
+                &["render.engine", "spacetime.coordinates"][..],
+                "the closed form has no coordinates to choose: `spacetime.coordinates` is for the integrator",
+                "choose `render.engine = \"integrator\"`, or remove `spacetime.coordinates`",
             ))
         } else if tilted {
             Some((

@@ -21,7 +21,7 @@ pub use render::{Camera, Display, Render};
 pub use screen::{Screen, ScreenKind};
 pub(super) use sky::USES as SKY_USES;
 pub use sky::{ImageFrame, Sky, SkyKind};
-pub use spacetime::{Spacetime, SpacetimeName};
+pub use spacetime::{Coordinates, Spacetime, SpacetimeName};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;

@@ -16,6 +16,24 @@ pub struct Spacetime {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "f64", range(min = -1, max = 1), extend("default" = KERR_SPIN))]
     pub spin: Option<f64>,
+    /// The coordinates in which light is followed. "kerr-schild" if not given; the others are there to show what
+    /// singular coordinates cost: only the integrator follows light in them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Coordinates", extend("default" = "kerr-schild"))]
+    pub coordinates: Option<Coordinates>,
+}
+
+/// Coordinates of a black hole's spacetime.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Coordinates {
+    /// Cartesian; regular at the horizon and on the axis.
+    #[default]
+    KerrSchild,
+    /// Spherical; singular at the horizon and on the axis. Without spin they are Schwarzschild's.
+    BoyerLindquist,
+    /// Spherical, of a hole that does not turn; singular at the horizon and on the axis.
+    Schwarzschild,
 }
 
 /// The name of a spacetime.
@@ -34,6 +52,11 @@ pub enum SpacetimeName {
 impl Spacetime {
     pub(super) fn complete(&self) -> Self {
         let spin = if self.name == SpacetimeName::Kerr { KERR_SPIN } else { 0.0 };
-        Self { name: self.name, spin: Some(self.spin.unwrap_or(spin)) }
+        let usual = (self.name != SpacetimeName::Minkowski).then(Coordinates::default);
+        Self {
+            name: self.name,
+            spin: Some(self.spin.unwrap_or(spin)),
+            coordinates: self.coordinates.or(usual),
+        }
     }
 }
