@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long, value_name = "E", value_parser = parse_tolerance, default_value = "1e-12")]
     tolerance: f64,
     /// Steps after which it is given up
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000), default_value_t = 100_000)]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=200_000), default_value_t = 100_000)]
     max_steps: u32,
 }
 

@@ -61,7 +61,7 @@ pub use length::{Length, length, polyline};
 pub use matrix::{eigenvalues, invert};
 pub use schwarzschild::Schwarzschild;
 pub use sphere::{Pole, Sphere, Stereographic, ThreeSphere};
-pub use trajectory::{End, Options, Point, Trajectory, conserved};
+pub use trajectory::{End, Options, Place, Point, Trajectory, conserved};
 pub use velocity::{Kind, VelocityError, velocity};
 
 use crate::scalar::Scalar;

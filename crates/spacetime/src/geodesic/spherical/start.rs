@@ -9,7 +9,7 @@ use crate::metric::{Inverted, Kerr, Metric, scaled_radius};
 use crate::tensor::Vec3;
 
 /// (u, θ, φ, p_r, p_θ, 0) of a ray around a hole, outside its horizon.
-pub fn state(hole: &Kerr, ray: &Ray) -> [f64; WIDTH] {
+pub fn state(hole: Kerr, ray: &Ray) -> [f64; WIDTH] {
     let s = hole.spin();
     let mut ray = *ray;
     ray.aim_azimuth();
@@ -37,7 +37,7 @@ pub fn state(hole: &Kerr, ray: &Ray) -> [f64; WIDTH] {
 }
 
 /// u times the Kerr–Schild place of u, θ, φ.
-pub fn direction(hole: &Kerr, u: f64, theta: f64, phi: f64) -> Vec3<f64> {
+pub fn direction(hole: Kerr, u: f64, theta: f64, phi: f64) -> Vec3<f64> {
     let s = hole.spin() * u;
     let (sin, cos) = theta.sin_cos();
     let offset = if u > 0.0 { hole.azimuth_offset(u.recip()) } else { 0.0 };

@@ -55,7 +55,7 @@ impl SphericalIntegrator {
     }
 
     fn follow(&self, ray: &Ray, query: &Query, path: &mut Path) {
-        let mut first = start::state(&self.hole, ray);
+        let mut first = start::state(self.hole, ray);
         let brink = self.hole.horizon() * BRINK;
         if first[0] * brink >= 1.0 {
             path.fate = Fate::Captured;
@@ -122,7 +122,7 @@ impl SphericalIntegrator {
             if level {
                 query.plane[2] * y[1].cos()
             } else {
-                dot(&start::direction(&self.hole, inverse(y), y[1], y[2]), &query.plane)
+                dot(&start::direction(self.hole, inverse(y), y[1], y[2]), &query.plane)
             }
         };
         let crossings = &mut path.crossings;
@@ -131,7 +131,7 @@ impl SphericalIntegrator {
                 return;
             }
             let u = inverse(y);
-            let place = start::direction(&self.hole, u, y[1], y[2]);
+            let place = start::direction(self.hole, u, y[1], y[2]);
             crossings.push(Crossing {
                 position: place.map(|c| c / u),
                 r: u.recip(),
@@ -174,7 +174,7 @@ impl SphericalIntegrator {
             let Some(s) = rest.peek() else { break };
             let y = s.dense.at(((parameter - s.start) / s.h).clamp(0.0, s.until));
             let u = flow.radius(&y).recip();
-            let [px, py, pz] = start::direction(&self.hole, u, y[1], y[2]).map(|c| c / u);
+            let [px, py, pz] = start::direction(self.hole, u, y[1], y[2]).map(|c| c / u);
             points.push([-flow.elapsed(&y), px, py, pz]);
         }
     }
