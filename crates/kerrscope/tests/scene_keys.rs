@@ -173,6 +173,7 @@ fn every_key() {
             seed: 0,
             jitter: false,
             engine: Engine::Integrator,
+            coordinates: scene::Coordinates::KerrSchild,
             method: Method::Rk4,
             tolerance: 1e-14,
             step: 1.0,
