@@ -11,14 +11,14 @@ fn scene(text: &str) -> Scene {
 #[test]
 fn they_are_chosen() {
     assert_eq!(Scene::built_in().render.coordinates, Coordinates::KerrSchild);
-    let round = scene("spacetime.coordinates = \"boyer-lindquist\"");
+    let round = scene("spacetime.chart = \"boyer-lindquist\"");
     assert_eq!(round.render.coordinates, Coordinates::BoyerLindquist);
     assert_eq!(round.render.engine, Engine::Integrator, "the closed form has none to choose");
     for name in ["schwarzschild", "boyer-lindquist", "kerr-schild"] {
-        let text = format!("spacetime = {{ name = \"schwarzschild\", coordinates = \"{name}\" }}");
+        let text = format!("spacetime = {{ name = \"schwarzschild\", chart = \"{name}\" }}");
         assert!(Scene::from_toml(&text, Path::new("")).is_ok(), "{name}");
     }
-    assert!(round.to_toml().contains("coordinates = \"boyer-lindquist\""));
+    assert!(round.to_toml().contains("chart = \"boyer-lindquist\""));
     assert!(!scene("spacetime.name = \"minkowski\"\ndisk.inner = 6").to_toml().contains("coordinates"));
 }
 
@@ -26,24 +26,20 @@ fn they_are_chosen() {
 fn they_have_to_cover_the_observer() {
     for (text, what, mend) in [
         (
-            "spacetime.coordinates = \"boyer-lindquist\"\nobserver.inclination = 0",
+            "spacetime.chart = \"boyer-lindquist\"\nobserver.inclination = 0",
             "singular on the axis",
             "move the observer off the axis",
         ),
         (
-            "spacetime.coordinates = \"boyer-lindquist\"\nobserver = { distance = 1.0, motion = \"fall\" }",
+            "spacetime.chart = \"boyer-lindquist\"\nobserver = { distance = 1.0, motion = \"fall\" }",
             "singular at the horizon",
             "move the observer beyond r = 1.25",
         ),
+        ("spacetime.chart = \"schwarzschild\"", "a hole that does not turn", "choose \"boyer-lindquist\""),
         (
-            "spacetime.coordinates = \"schwarzschild\"",
-            "a hole that does not turn",
-            "choose \"boyer-lindquist\"",
-        ),
-        (
-            "spacetime.coordinates = \"kerr-schild\"\nspacetime.name = \"minkowski\"\ndisk.inner = 6",
+            "spacetime.chart = \"kerr-schild\"\nspacetime.name = \"minkowski\"\ndisk.inner = 6",
             "is used with `spacetime.name = \"kerr\"`",
-            "remove `spacetime.coordinates`",
+            "remove `spacetime.chart`",
         ),
     ] {
         let faults = Scene::from_toml(text, Path::new("")).unwrap_err();
@@ -51,7 +47,7 @@ fn they_have_to_cover_the_observer() {
         assert!(faults[0].message.contains(what) && faults[0].help.contains(mend), "{faults}");
         assert_eq!(faults[0].line_column().map(|(line, _)| line), Some(1), "{faults}");
     }
-    let text = "render.engine = \"closed-form\"\nspacetime.coordinates = \"boyer-lindquist\"";
+    let text = "render.engine = \"closed-form\"\nspacetime.chart = \"boyer-lindquist\"";
     let faults = Scene::from_toml(text, Path::new("")).unwrap_err();
     assert!(faults[0].message.contains("no coordinates to choose"), "{faults}");
 }
@@ -69,7 +65,7 @@ fn they_draw_the_same() {
     };
     for (name, coordinates) in [("kerr", "boyer-lindquist"), ("schwarzschild", "schwarzschild")] {
         let with = |coordinates: &str| {
-            film(&format!("spacetime = {{ name = \"{name}\", coordinates = \"{coordinates}\" }}"))
+            film(&format!("spacetime = {{ name = \"{name}\", chart = \"{coordinates}\" }}"))
         };
         let (one, other) = (with("kerr-schild"), with(coordinates));
         assert_eq!(one.light.len(), other.light.len());

@@ -29,26 +29,26 @@ fn vector(min: f64, max: f64) -> impl Strategy<Value = [f64; 3]> {
 }
 
 /// Those that every observer is covered by.
-fn coordinates() -> impl Strategy<Value = Option<Coordinates>> {
+fn chart() -> impl Strategy<Value = Option<Coordinates>> {
     option::of(Just(Coordinates::KerrSchild))
 }
 
 fn spacetimes() -> impl Strategy<Value = Spacetime> {
     prop_oneof![
-        (option::of(number(-1.0, 1.0)), coordinates()).prop_map(|(spin, coordinates)| Spacetime {
+        (option::of(number(-1.0, 1.0)), chart()).prop_map(|(spin, chart)| Spacetime {
             name: SpacetimeName::Kerr,
             spin,
-            coordinates
+            chart
         }),
-        (option::of(Just(0.0)), coordinates()).prop_map(|(spin, coordinates)| Spacetime {
+        (option::of(Just(0.0)), chart()).prop_map(|(spin, chart)| Spacetime {
             name: SpacetimeName::Schwarzschild,
             spin,
-            coordinates
+            chart
         }),
         option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime {
             name: SpacetimeName::Minkowski,
             spin,
-            coordinates: None
+            chart: None
         }),
     ]
 }

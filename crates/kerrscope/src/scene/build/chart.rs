@@ -9,13 +9,8 @@ use crate::scene::file::{Coordinates, SceneFile, SpacetimeName};
 use crate::scene::valid::Spacetime;
 
 /// The chosen coordinates come first: they are what is unusual.
-const KEYS: [&str; 5] = [
-    "spacetime.coordinates",
-    "observer.distance",
-    "observer.inclination",
-    "observer.position",
-    "observer.motion",
-];
+const KEYS: [&str; 5] =
+    ["spacetime.chart", "observer.distance", "observer.inclination", "observer.position", "observer.motion"];
 
 /// Sine of the angle from the axis below which azimuths lose their digits.
 const NEAR_AXIS: f64 = 1e-9;
@@ -28,10 +23,10 @@ impl Builder<'_> {
         spacetime: Spacetime,
         place: Place,
     ) -> Coordinates {
-        let Some(coordinates) = scene.spacetime.coordinates else { return Coordinates::KerrSchild };
+        let Some(coordinates) = scene.spacetime.chart else { return Coordinates::KerrSchild };
         let Some(spin) = spacetime.spin() else {
             let holes = [SpacetimeName::Kerr, SpacetimeName::Schwarzschild];
-            self.unused("spacetime.coordinates", "spacetime.name", &holes);
+            self.unused("spacetime.chart", "spacetime.name", &holes);
             return Coordinates::KerrSchild;
         };
         if coordinates == Coordinates::KerrSchild {
@@ -41,23 +36,23 @@ impl Builder<'_> {
             if coordinates == Coordinates::Schwarzschild { "Schwarzschild" } else { "Boyer–Lindquist" };
         if coordinates == Coordinates::Schwarzschild && scene.spacetime.name == SpacetimeName::Kerr {
             self.fault(
-                &["spacetime.coordinates", "spacetime.name"],
+                &["spacetime.chart", "spacetime.name"],
                 "Schwarzschild coordinates are those of a hole that does not turn",
                 "choose \"boyer-lindquist\", or `spacetime.name = \"schwarzschild\"`",
             );
         }
         if !scene.object.is_empty() {
             self.fault(
-                &["spacetime.coordinates", "object"],
+                &["spacetime.chart", "object"],
                 format!("{name} coordinates know no things in the way of light"),
-                "leave out the `[[object]]` sections, or choose `spacetime.coordinates = \"kerr-schild\"`",
+                "leave out the `[[object]]` sections, or choose `spacetime.chart = \"kerr-schild\"`",
             );
         }
         if place.theta.sin().abs() < NEAR_AXIS {
             self.fault(
                 &KEYS,
                 format!("{name} coordinates are singular on the axis, and the observer is there"),
-                "move the observer off the axis, or choose `spacetime.coordinates = \"kerr-schild\"`",
+                "move the observer off the axis, or choose `spacetime.chart = \"kerr-schild\"`",
             );
         }
         // Closer in, a falling observer sees in ingoing coordinates.
@@ -71,7 +66,7 @@ impl Builder<'_> {
                     readable(place.r)
                 ),
                 format!(
-                    "move the observer beyond r = {least}, or choose `spacetime.coordinates = \"kerr-schild\"`"
+                    "move the observer beyond r = {least}, or choose `spacetime.chart = \"kerr-schild\"`"
                 ),
             );
         }

@@ -182,9 +182,9 @@ impl Builder<'_> {
             ))
         } else if coordinates != Coordinates::KerrSchild {
             Some((
-                &["render.engine", "spacetime.coordinates"][..],
-                "the closed form has no coordinates to choose: `spacetime.coordinates` is for the integrator",
-                "choose `render.engine = \"integrator\"`, or remove `spacetime.coordinates`",
+                &["render.engine", "spacetime.chart"][..],
+                "the closed form has no coordinates to choose: `spacetime.chart` is for the integrator",
+                "choose `render.engine = \"integrator\"`, or remove `spacetime.chart`",
             ))
         } else if tilted {
             Some((

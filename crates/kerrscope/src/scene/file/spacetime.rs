@@ -20,7 +20,7 @@ pub struct Spacetime {
     /// singular coordinates cost: only the integrator follows light in them.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Coordinates", extend("default" = "kerr-schild"))]
-    pub coordinates: Option<Coordinates>,
+    pub chart: Option<Coordinates>,
 }
 
 /// Coordinates of a black hole's spacetime.
@@ -53,10 +53,6 @@ impl Spacetime {
     pub(super) fn complete(&self) -> Self {
         let spin = if self.name == SpacetimeName::Kerr { KERR_SPIN } else { 0.0 };
         let usual = (self.name != SpacetimeName::Minkowski).then(Coordinates::default);
-        Self {
-            name: self.name,
-            spin: Some(self.spin.unwrap_or(spin)),
-            coordinates: self.coordinates.or(usual),
-        }
+        Self { name: self.name, spin: Some(self.spin.unwrap_or(spin)), chart: self.chart.or(usual) }
     }
 }
