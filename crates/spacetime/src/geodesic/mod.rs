@@ -11,6 +11,9 @@ mod log;
 mod method;
 mod ray;
 mod straight;
+#[cfg(not(test))]
+mod text;
+mod throat;
 mod walk;
 mod winding;
 
@@ -22,6 +25,8 @@ pub use inverted::InvertedFlow;
 pub use method::{Dop853, Method, Rk4, Step, Tsit5};
 pub use ray::{Ray, Side};
 pub use straight::Straight;
+#[cfg(not(test))]
+pub use text::TextTracer;
 
 use crate::tensor::Vec3;
 
@@ -32,7 +37,8 @@ pub enum Fate {
     Escaped,
     /// It comes out of the past horizon: no light of ours.
     Captured,
-    /// Given up: too many steps, or steps that cannot be made small enough.
+    /// Given up: too many steps, or steps that cannot be made small enough, as where the metric has no value or not
+    /// the signature of a spacetime.
     #[default]
     StepLimit,
 }
@@ -84,6 +90,8 @@ pub struct Path {
     pub crossings: Vec<Crossing>,
     /// Asymptotic direction (θ, φ) that the light comes from, φ unwrapped, if it escaped.
     pub direction: Option<[f64; 2]>,
+    /// Whether it comes from the other side of a wormhole: the direction is one of the sky there.
+    pub other_side: bool,
     /// How often light went round the hole, if asked for: periods of its motion in θ
     /// (Gralla & Lupsasca 2020, eq. 36: the fractional number of orbits), which without spin is the
     /// angle swept over 2π. NaN where that is not known.
@@ -103,6 +111,7 @@ impl Path {
         self.fate = Fate::StepLimit;
         self.crossings.clear();
         self.direction = None;
+        self.other_side = false;
         self.steps = 0;
         self.windings = f64::NAN;
         self.error_estimate = f64::NAN;
