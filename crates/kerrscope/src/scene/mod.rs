@@ -65,6 +65,8 @@ pub struct Scene {
     pub disk: Option<Disk>,
     /// What is seen where light comes from infinity.
     pub sky: Sky,
+    /// The sky on the other side, where there is one.
+    pub other_sky: Option<Sky>,
     /// How finely and how exactly the picture is computed.
     pub render: Render,
     /// How light becomes a picture.
@@ -136,11 +138,12 @@ impl Scene {
             Surface::Picture { path, .. } => Some(path.as_path()),
             Surface::Ring { .. } => None,
         });
-        let sky = match &self.sky.picture {
+        let skies = [Some(&self.sky), self.other_sky.as_ref()].into_iter().flatten();
+        let skies = skies.filter_map(|sky| match &sky.picture {
             SkyPicture::Panorama { path, .. } => Some(path.as_path()),
             _ => None,
-        };
-        disk.into_iter().chain(sky)
+        });
+        disk.into_iter().chain(skies)
     }
 
     /// The keys that the scene was built from, with every default.
