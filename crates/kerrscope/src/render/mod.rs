@@ -5,6 +5,7 @@ mod film;
 mod layer;
 mod probe;
 mod sampling;
+mod scenery;
 mod stage;
 mod tally;
 mod tile;

@@ -2,19 +2,19 @@
 
 use super::adaptive::Audit;
 use super::probe::Probe;
+use super::scenery;
 use super::tracer::tracer;
 use super::{Channel, Sampler, Tally};
 use crate::camera::Camera;
-use crate::disk::{Disk, DiskHit, Picture, Plane, Ring, Surface};
-use crate::display::srgb;
+use crate::disk::{Disk, DiskHit, Plane};
 use crate::light::{Beam, Light};
-use crate::scene::{self, Scene, ScreenKind, SkyPicture};
-use crate::sky::{Grid, Panorama, Sky, Stars, footprint, towards};
+use crate::scene::Scene;
+use crate::sky::{Sky, footprint, towards};
 use crate::spacetime::Level;
 use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
 use crate::spacetime::observer::ObserverError;
 use crate::spacetime::tensor::Vec3;
-use crate::texture::{Texture, TextureError};
+use crate::texture::TextureError;
 
 /// Everything that a render needs.
 pub struct Stage {
@@ -92,13 +92,13 @@ impl Stage {
     /// # Errors
     /// If a picture cannot be read.
     pub fn with_level(scene: &Scene, level: Level) -> Result<Self, StageError> {
-        let disk = scene.disk.as_ref().map(surface).transpose()?;
+        let disk = scene.disk.as_ref().map(scenery::disk).transpose()?;
         let query = Query {
             plane: disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane).normal(),
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
             ..Query::default()
         };
-        let pixel = pixel_angle(scene);
+        let pixel = scenery::pixel_angle(scene);
         Ok(Self {
             size: [scene.render.width, scene.render.height],
             samples: scene.render.samples,
@@ -108,8 +108,8 @@ impl Stage {
             probe: Probe::new(scene, &query),
             query,
             disk,
-            sky: sky(&scene.sky, pixel)?,
-            other_sky: scene.other_sky.as_ref().map_or(Ok(Sky::Black), |other| sky(other, pixel))?,
+            sky: scenery::sky(&scene.sky, pixel)?,
+            other_sky: scene.other_sky.as_ref().map_or(Ok(Sky::Black), |other| scenery::sky(other, pixel))?,
             pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
             adaptive: scene.render.adaptive,
@@ -370,53 +370,4 @@ impl Stage {
 /// The path of a photon that does not exist: no light.
 fn nowhere() -> Path {
     Path { fate: Fate::Captured, error_estimate: 0.0, windings: f64::NAN, ..Path::default() }
-}
-
-fn linear(color: [f64; 3]) -> Light {
-    Light::new(color.map(srgb::decode))
-}
-
-fn surface(disk: &scene::Disk) -> Result<Disk, TextureError> {
-    let surface = match &disk.surface {
-        scene::Surface::Ring { seed } => Surface::Ring(Ring::new(*seed)),
-        scene::Surface::Picture { path, mapping } => {
-            Surface::Picture(Picture { texture: Texture::load(path)?, mapping: *mapping })
-        }
-    };
-    Ok(Disk {
-        inner: disk.inner,
-        outer: disk.outer,
-        plane: Plane::new(disk.tilt, disk.node),
-        surface,
-        tint: disk.color.map(|c| srgb::decode(c) * disk.brightness),
-        opacity: disk.opacity,
-    })
-}
-
-/// The angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
-fn pixel_angle(scene: &Scene) -> f64 {
-    let pixels = f64::from(scene.render.height);
-    match scene.screen.kind {
-        ScreenKind::Pinhole { height } => 2.0 * (0.5 * height).tan() / pixels,
-        ScreenKind::Angular { height } => height / pixels,
-        // For a distant observer this is nothing; then what deflection by 4/b makes of it at the
-        // picture's edge.
-        ScreenKind::Impact { height } => {
-            let deflection = 4.0 / (0.5 * height).powi(2);
-            height / pixels * deflection.min(1.0).max(scene.observer.place.r.recip())
-        }
-    }
-}
-
-/// The sky of a picture whose pixels cover an angle on it if nothing bends light.
-fn sky(sky: &scene::Sky, pixel: f64) -> Result<Sky, TextureError> {
-    Ok(match &sky.picture {
-        SkyPicture::Black => Sky::Black,
-        SkyPicture::Uniform { color } => Sky::Uniform(linear(*color) * sky.brightness),
-        SkyPicture::Grid { color, spacing } => Sky::Grid(Grid::new(*spacing, linear(*color), sky.brightness)),
-        SkyPicture::Stars { orientation } => Sky::Stars(Stars::new(pixel, *orientation, sky.brightness)),
-        SkyPicture::Panorama { path, orientation } => {
-            Sky::Panorama(Panorama::new(Texture::load(path)?, *orientation, sky.brightness))
-        }
-    })
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use super::fault::{Collector, Fault, Faults, Place, Source};
-use super::tree::{self, Node};
 use super::file::Spacetime;
+use super::tree::{self, Node};
 use super::{Scene, SceneFile, build, check, overrides, shape};
 
 /// The most bytes that a scene may have.

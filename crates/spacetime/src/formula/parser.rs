@@ -171,14 +171,22 @@ impl<'t> Parser<'t, '_> {
             Token::Name(name) => Ok(self.name(name, span)),
             Token::Sign('(') => {
                 if self.peek() == Token::Sign(')') {
-                    return Err(Fault::new(span, "there is nothing between these brackets", "write a value in them"));
+                    return Err(Fault::new(
+                        span,
+                        "there is nothing between these brackets",
+                        "write a value in them",
+                    ));
                 }
                 let node = self.sum()?;
                 self.close(span)?;
                 Ok(node)
             }
             Token::End => {
-                let what = if self.tokens.len() == 1 { "the formula is empty" } else { "the formula ends here, and a value is missing" };
+                let what = if self.tokens.len() == 1 {
+                    "the formula is empty"
+                } else {
+                    "the formula ends here, and a value is missing"
+                };
                 Err(Fault::new(span, what, "write a number, a name, or brackets"))
             }
             Token::Sign(sign) => Err(Fault::new(
@@ -309,8 +317,15 @@ pub(crate) fn similar<'w>(typed: &str, words: impl Iterator<Item = &'w str>) -> 
     if typed.len() > 64 {
         return None;
     }
+    let typed = typed.to_lowercase();
     words
-        .map(|word| (strsim::normalized_damerau_levenshtein(&typed.to_lowercase(), &word.to_lowercase()), word))
+        .map(|word| {
+            let known = word.to_lowercase();
+            let begun = known.len() >= 3 && typed.len() >= 3;
+            let begun = begun && (typed.starts_with(&known) || known.starts_with(&typed));
+            let likeness = strsim::normalized_damerau_levenshtein(&typed, &known);
+            (if begun { 1.0 } else { likeness }, word)
+        })
         .filter(|(likeness, _)| *likeness >= 0.6)
         .max_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, word)| word)

@@ -66,9 +66,8 @@ impl Program {
         let mut fused = vec![false; graph.len()];
         for id in &ids {
             if let Node::Add(a, b) = graph.node(*id) {
-                let alone = |id: NodeId| {
-                    matches!(graph.node(id), Node::Mul(..)) && uses[Graph::index(id)] == 1
-                };
+                let alone =
+                    |id: NodeId| matches!(graph.node(id), Node::Mul(..)) && uses[Graph::index(id)] == 1;
                 if let Some(product) = [b, a].into_iter().find(|id| alone(*id)) {
                     fused[Graph::index(product)] = true;
                 }
@@ -206,7 +205,8 @@ impl Compiler<'_> {
     fn operands(&self, id: NodeId) -> [Option<NodeId>; 3] {
         if let Node::Add(a, b) = self.graph.node(id) {
             for (product, other) in [(b, a), (a, b)] {
-                if let (true, Node::Mul(x, y)) = (self.fused[Graph::index(product)], self.graph.node(product)) {
+                if let (true, Node::Mul(x, y)) = (self.fused[Graph::index(product)], self.graph.node(product))
+                {
                     return [Some(x), Some(y), Some(other)];
                 }
             }
@@ -216,7 +216,8 @@ impl Compiler<'_> {
     }
 
     fn emit(&mut self, id: NodeId, parts: &[Option<NodeId>; 3]) -> Option<()> {
-        let of = |part: Option<NodeId>| part.and_then(|part| self.place[Graph::index(part)]).unwrap_or_default();
+        let of =
+            |part: Option<NodeId>| part.and_then(|part| self.place[Graph::index(part)]).unwrap_or_default();
         let [a, b, c] = parts.map(of);
         // An operand's register may take the result.
         for part in parts.iter().flatten() {

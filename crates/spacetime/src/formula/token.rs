@@ -89,9 +89,8 @@ pub(super) fn is_letter(c: char) -> bool {
 /// The length of a number at the head of a text: digits and points, then an exponent if it has digits.
 fn number_length(text: &str) -> usize {
     let bytes = text.as_bytes();
-    let digits = |from: usize| {
-        from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count()
-    };
+    let digits =
+        |from: usize| from + bytes[from..].iter().take_while(|b| b.is_ascii_digit() || **b == b'.').count();
     let end = digits(0);
     if !matches!(bytes.get(end), Some(b'e' | b'E')) {
         return end;

@@ -348,8 +348,7 @@ fn drift<M: Metric>(metric: &M, energy: f64, start: &Inverted<f64>, end: &Invert
     let size = energy * energy + dot(&start.j, &start.j);
     let norm =
         (metric.norm(energy, end) - metric.norm(energy, start)).abs() / (energy * energy + end.q * end.q);
-    let momentum =
-        if metric.is_axisymmetric() { (end.j[2] - start.j[2]).abs() / size.sqrt() } else { 0.0 };
+    let momentum = if metric.is_axisymmetric() { (end.j[2] - start.j[2]).abs() / size.sqrt() } else { 0.0 };
     let carter = match (metric.carter(energy, start), metric.carter(energy, end)) {
         (Some(before), Some(after)) => (after - before).abs() / size,
         _ => 0.0,

@@ -94,7 +94,9 @@ pub enum ObserverError {
         r: f64,
     },
     /// ∂t is not timelike here.
-    #[error("no observer is static at r = {r} M: the metric's g_tt is {time:.3e} there, which is not below 0")]
+    #[error(
+        "no observer is static at r = {r} M: the metric's g_tt is {time:.3e} there, which is not below 0"
+    )]
     NotStatic {
         /// Asked radius.
         r: f64,
@@ -124,7 +126,9 @@ pub enum ObserverError {
         outer: f64,
     },
     /// What is known of geodesics around Kerr holes alone.
-    #[error("orbits and free fall are known around Kerr holes only, and this spacetime is a metric of its own")]
+    #[error(
+        "orbits and free fall are known around Kerr holes only, and this spacetime is a metric of its own"
+    )]
     OnlyAroundKerr,
     /// Flat space has no orbits.
     #[error("nothing orbits in flat space")]

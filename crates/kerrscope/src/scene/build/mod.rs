@@ -150,10 +150,14 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\"",
             );
         }
-        for layer in [Layer::T, Layer::G, Layer::Windings].into_iter().filter(|layer| layers.contains(layer)) {
+        for layer in [Layer::T, Layer::G, Layer::Windings].into_iter().filter(|layer| layers.contains(layer))
+        {
             self.fault(
                 &["render.layers", "camera.display.layer", "spacetime.name"],
-                format!("the layer \"{}\" is computed around Kerr holes only, and this spacetime is a text", layer.word()),
+                format!(
+                    "the layer \"{}\" is computed around Kerr holes only, and this spacetime is a text",
+                    layer.word()
+                ),
                 "leave it out",
             );
         }

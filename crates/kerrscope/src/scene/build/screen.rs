@@ -7,7 +7,12 @@ use crate::scene::file;
 use crate::scene::valid::{Observer, Screen, ScreenKind, Spacetime};
 
 impl Builder<'_> {
-    pub(super) fn screen(&mut self, file: &file::Screen, spacetime: &Spacetime, observer: Observer) -> Screen {
+    pub(super) fn screen(
+        &mut self,
+        file: &file::Screen,
+        spacetime: &Spacetime,
+        observer: Observer,
+    ) -> Screen {
         let height = file.field_of_view.unwrap_or_default();
         let mut too_high = |what: &str, mend: &str| {
             let what = format!("{what} cannot be {height}° high");

@@ -10,7 +10,9 @@ impl Builder<'_> {
     pub(super) fn other_sky(&mut self, scene: &file::SceneFile, spacetime: &Spacetime) -> Option<Sky> {
         let file = scene.other_sky.as_ref();
         if spacetime.has_throat() {
-            return Some(self.sky(file.unwrap_or(&scene.sky), if file.is_some() { "other_sky" } else { "sky" }));
+            return Some(
+                self.sky(file.unwrap_or(&scene.sky), if file.is_some() { "other_sky" } else { "sky" }),
+            );
         }
         if file.is_some() {
             self.fault(

@@ -56,16 +56,18 @@ impl Builder<'_> {
         let before = self.faults.len();
         if file.spin.is_some() {
             let what = "a metric as text has no `spin` of its own";
-            self.fault(&["spacetime.spin", "spacetime.name"], what, "set `spacetime.parameters.spin` if it has that parameter");
+            self.fault(
+                &["spacetime.spin", "spacetime.name"],
+                what,
+                "set `spacetime.parameters.spin` if it has that parameter",
+            );
         }
         let element = self.typed(file).and_then(|typed| Some((self.element(file.name, &typed)?, typed.keys)));
         let shown = |keys: file::Spacetime| match file.name.metric() {
             // Its name and its numbers say all of it.
-            Some(_) => file::Spacetime {
-                name: file.name,
-                parameters: keys.parameters,
-                ..file::Spacetime::default()
-            },
+            Some(_) => {
+                file::Spacetime { name: file.name, parameters: keys.parameters, ..file::Spacetime::default() }
+            }
             None => file::Spacetime { name: SpacetimeName::Text, file: None, spin: None, ..keys },
         };
         match element {
@@ -110,14 +112,18 @@ impl Builder<'_> {
                 self.fault(
                     &[&format!("spacetime.{key}"), "spacetime.name"],
                     format!("this metric is known by {from}, and `spacetime.{key}` would change it"),
-                    format!("remove `spacetime.{key}`, or write the whole metric with `spacetime.name = \"text\"`"),
+                    format!(
+                        "remove `spacetime.{key}`, or write the whole metric with `spacetime.name = \"text\"`"
+                    ),
                 );
             }
         }
         let (mut keys, node) = read::metric(source, self.faults)?;
-        for (key, given) in
-            [("name", node.at("name").is_some()), ("file", keys.file.is_some()), ("spin", keys.spin.is_some())]
-        {
+        for (key, given) in [
+            ("name", node.at("name").is_some()),
+            ("file", keys.file.is_some()),
+            ("spin", keys.spin.is_some()),
+        ] {
             if let (true, Some(node)) = (given, node.at(key)) {
                 self.faults.push(&node.key, || {
                     let mend = "a metric's file has `coordinates`, `metric` and what belongs to them";
@@ -184,7 +190,10 @@ impl Builder<'_> {
         };
         if !element.is_stationary() {
             let what = "the metric depends on time, and rays are followed in stationary ones only";
-            return refuse(what.to_owned(), "write a metric whose components do not depend on the first coordinate");
+            return refuse(
+                what.to_owned(),
+                "write a metric whose components do not depend on the first coordinate",
+            );
         }
         if element.outer().is_infinite()
             && let Err(reason) = element.check_flat()

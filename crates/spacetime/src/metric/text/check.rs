@@ -50,7 +50,13 @@ impl LineElement {
             let g = self.cartesian(&direction.map(|c| c * distance / length));
             for m in 0..4 {
                 for n in 0..4 {
-                    let flat = if m != n { 0.0 } else if m == 0 { -1.0 } else { 1.0 };
+                    let flat = if m != n {
+                        0.0
+                    } else if m == 0 {
+                        -1.0
+                    } else {
+                        1.0
+                    };
                     let difference = (g[m][n] - flat).abs();
                     if difference.is_nan() {
                         return f64::NAN;

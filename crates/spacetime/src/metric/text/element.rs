@@ -118,7 +118,8 @@ impl LineElement {
         };
         element.axisymmetric = super::check::is_axisymmetric(&element);
         if element.reversal == Reversal::Mirror && !element.axisymmetric {
-            let what = "a spacetime that is not the same all around the z axis is not its own mirror image in time";
+            let what =
+                "a spacetime that is not the same all around the z axis is not its own mirror image in time";
             let mend = "leave it at \"time\", in which t changes its sign";
             return Err(vec![DefinitionFault::whole(Part::Reversal, what, mend)]);
         }
@@ -227,7 +228,9 @@ impl Reader {
         };
         let Some(value) = self.graph.value(node) else {
             let mend = match part {
-                Part::Horizon => "give a number or a formula of parameters, or say with `depth` what counts as captured",
+                Part::Horizon => {
+                    "give a number or a formula of parameters, or say with `depth` what counts as captured"
+                }
                 _ => "give a number or a formula of parameters",
             };
             fault(format!("{name} cannot depend on coordinates"), mend.to_owned());
@@ -249,10 +252,16 @@ impl Reader {
             match pair(&definition.coordinates, name) {
                 Ok(place) if all[place].is_some() => {
                     let what = format!("the component `{name}` is given twice; the metric is symmetric");
-                    self.faults.push(DefinitionFault::whole(Part::ComponentName(i), what, "keep one of the two"));
+                    self.faults.push(DefinitionFault::whole(
+                        Part::ComponentName(i),
+                        what,
+                        "keep one of the two",
+                    ));
                 }
                 Ok(place) => all[place] = Some(node.unwrap_or_else(|| self.graph.constant(1.0))),
-                Err((what, mend)) => self.faults.push(DefinitionFault::whole(Part::ComponentName(i), what, mend)),
+                Err((what, mend)) => {
+                    self.faults.push(DefinitionFault::whole(Part::ComponentName(i), what, mend))
+                }
             }
         }
         for (place, [m, _]) in PAIRS.into_iter().enumerate().filter(|(_, [m, n])| m == n) {
@@ -271,7 +280,11 @@ impl Reader {
             self.faults.push(DefinitionFault::whole(part, what, mend));
         };
         if definition.horizon.is_some() && definition.depth.is_some() {
-            fault(Part::Depth, "`horizon` and `depth` both say what counts as captured", "keep one of the two");
+            fault(
+                Part::Depth,
+                "`horizon` and `depth` both say what counts as captured",
+                "keep one of the two",
+            );
         }
         if throat.is_some() && (definition.horizon.is_some() || definition.depth.is_some()) {
             let what = "rays go on through a throat, and `horizon` or `depth` would end them";
@@ -290,8 +303,12 @@ fn pair(coordinates: &[String; 4], name: &str) -> Result<usize, (String, String)
         let (a, b) = (&coordinates[m], &coordinates[n]);
         name == format!("{a}{b}") || name == format!("{a}_{b}")
     };
-    let places: Vec<usize> =
-        (0..10).filter(|place| { let [m, n] = PAIRS[*place]; named(m, n) || named(n, m) }).collect();
+    let places: Vec<usize> = (0..10)
+        .filter(|place| {
+            let [m, n] = PAIRS[*place];
+            named(m, n) || named(n, m)
+        })
+        .collect();
     let [a, b] = [&coordinates[0], &coordinates[1]];
     match places[..] {
         [place] => Ok(place),

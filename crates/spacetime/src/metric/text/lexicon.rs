@@ -27,12 +27,18 @@ impl Names for Lexicon {
 
 impl Lexicon {
     /// Reads the coordinates, the parameters and the formulas with names; what cannot be read stands for 1.
-    pub(super) fn read(definition: &Definition, graph: &mut Graph, faults: &mut Vec<DefinitionFault>) -> Self {
+    pub(super) fn read(
+        definition: &Definition,
+        graph: &mut Graph,
+        faults: &mut Vec<DefinitionFault>,
+    ) -> Self {
         let mut lexicon = Self { nodes: HashMap::new(), order: Vec::new() };
         let mut fault = |part, what: String, mend: &str| {
             faults.push(DefinitionFault::whole(part, what, mend));
         };
-        for (kind, count) in [("parameters", definition.parameters.len()), ("formulas", definition.lets.len())] {
+        for (kind, count) in
+            [("parameters", definition.parameters.len()), ("formulas", definition.lets.len())]
+        {
             if count > MOST {
                 fault(Part::Whole, format!("{count} {kind}, and {MOST} are the most"), "leave some out");
                 return lexicon;
@@ -46,7 +52,11 @@ impl Lexicon {
             let node = graph.constant(*value);
             lexicon.add(name, node, Part::Parameter(i), &mut fault);
             if !value.is_finite() {
-                fault(Part::Parameter(i), format!("the parameter `{name}` is {value}"), "give it a finite number");
+                fault(
+                    Part::Parameter(i),
+                    format!("the parameter `{name}` is {value}"),
+                    "give it a finite number",
+                );
             }
         }
         let (order, circular) = arrange(definition);
@@ -63,7 +73,8 @@ impl Lexicon {
                 faults.extend(wrong.into_iter().map(|fault| DefinitionFault { part: Part::Let(i), fault }));
                 graph.constant(1.0)
             });
-            let mut fault = |part, what: String, mend: &str| faults.push(DefinitionFault::whole(part, what, mend));
+            let mut fault =
+                |part, what: String, mend: &str| faults.push(DefinitionFault::whole(part, what, mend));
             lexicon.add(name, node, Part::LetName(i), &mut fault);
         }
         lexicon
@@ -86,7 +97,8 @@ impl Lexicon {
 /// The formulas with names in an order in which each comes after those that it uses; and those that use themselves.
 fn arrange(definition: &Definition) -> (Vec<usize>, Vec<usize>) {
     let lets = &definition.lets;
-    let number: HashMap<&str, usize> = lets.iter().enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
+    let number: HashMap<&str, usize> =
+        lets.iter().enumerate().map(|(i, (name, _))| (name.as_str(), i)).collect();
     let mut users = vec![Vec::new(); lets.len()];
     let mut missing = vec![0_usize; lets.len()];
     for (i, (_, text)) in lets.iter().enumerate() {

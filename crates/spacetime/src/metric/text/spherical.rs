@@ -79,9 +79,15 @@ impl<'g> Rewriter<'g> {
             Node::Call(Function::Sin, angle) if self.from.node(angle) == Node::Input(THETA) => {
                 to.div(self.flat, self.r)
             }
-            Node::Call(Function::Cos, angle) if self.from.node(angle) == Node::Input(THETA) => to.div(z, self.r),
-            Node::Call(Function::Sin, angle) if self.from.node(angle) == Node::Input(3) => to.div(y, self.flat),
-            Node::Call(Function::Cos, angle) if self.from.node(angle) == Node::Input(3) => to.div(x, self.flat),
+            Node::Call(Function::Cos, angle) if self.from.node(angle) == Node::Input(THETA) => {
+                to.div(z, self.r)
+            }
+            Node::Call(Function::Sin, angle) if self.from.node(angle) == Node::Input(3) => {
+                to.div(y, self.flat)
+            }
+            Node::Call(Function::Cos, angle) if self.from.node(angle) == Node::Input(3) => {
+                to.div(x, self.flat)
+            }
             Node::Mul(a, b) if a == self.sin && b == self.sin => to.div(self.flat2, self.r2),
             Node::Add(a, b) => to.add(part(a), part(b)),
             Node::Sub(a, b) => to.sub(part(a), part(b)),
@@ -176,7 +182,8 @@ impl<'g> Rewriter<'g> {
         ];
         let whirl = self.over_sin(phi2, 2);
         let bulge = self.from.sub(whirl, theta2);
-        let [tt, tr, t_theta, t_phi, rr, r_theta, r_phi, theta2, theta_phi] = reduced.map(|node| self.rewrite(node));
+        let [tt, tr, t_theta, t_phi, rr, r_theta, r_phi, theta2, theta_phi] =
+            reduced.map(|node| self.rewrite(node));
         let bulge = self.rewrite(bulge);
         let [x, y, z] = self.x;
         let (r, r2, flat2) = (self.r, self.r2, self.flat2);
