@@ -23,10 +23,10 @@ pub(super) fn keys(source: Arc<Source>) -> Result<SceneFile, Faults> {
 }
 
 /// Reads a metric's file: the keys of `[spacetime]`, at its top, and where they stand. None if it could not be read whole.
-pub(super) fn metric(source: Arc<Source>, faults: &mut Collector) -> Option<(Spacetime, Node)> {
-    faults.add_source(&source);
+pub(super) fn metric(source: &Arc<Source>, faults: &mut Collector) -> Option<(Spacetime, Node)> {
+    faults.add_source(source);
     let before = faults.len();
-    let (mut root, complete) = tree::parse(&source, faults);
+    let (mut root, complete) = tree::parse(source, faults);
     let schema = shape::property(&SCHEMA, "spacetime")?;
     check::check(&mut root, schema, faults);
     let keys = root.to_toml().try_into().ok()?;

@@ -242,15 +242,16 @@ impl<'t> Parser<'t, '_> {
             ("atan2", Some(&y), Some(&x)) => self.graph.atan2(y, x),
             ("min", Some(&a), Some(&b)) => self.graph.min(a, b),
             ("max", Some(&a), Some(&b)) => self.graph.max(a, b),
-            (_, Some(&x), _) => match Function::named(name) {
-                Some(function) => self.graph.call(function, x),
-                // tan x.
-                None => {
+            (_, Some(&x), _) => {
+                if let Some(function) = Function::named(name) {
+                    self.graph.call(function, x)
+                } else {
+                    // tan x.
                     let sin = self.graph.call(Function::Sin, x);
                     let cos = self.graph.call(Function::Cos, x);
                     self.graph.div(sin, cos)
                 }
-            },
+            }
             _ => self.graph.constant(1.0),
         })
     }

@@ -53,17 +53,12 @@ pub(super) fn tokens<'t>(text: &'t str, faults: &mut Vec<Fault>) -> Vec<(Token<'
         if is_letter(first) {
             all.push((Token::Name(word), span));
         } else if first.is_ascii_digit() || first == '.' {
-            match word.parse::<f64>().ok().filter(|x| x.is_finite()) {
-                Some(number) => all.push((Token::Number(number), span)),
-                None => {
-                    faults.push(Fault::new(
-                        span.clone(),
-                        format!("`{word}` is no number"),
-                        "a number is written 0.5 or 1e-8",
-                    ));
-                    all.push((Token::Number(1.0), span));
-                }
+            let number = word.parse::<f64>().ok().filter(|x| x.is_finite());
+            if number.is_none() {
+                let what = format!("`{word}` is no number");
+                faults.push(Fault::new(span.clone(), what, "a number is written 0.5 or 1e-8"));
             }
+            all.push((Token::Number(number.unwrap_or(1.0)), span));
         } else if let Some((typed, mend)) = meant {
             faults.push(Fault::new(span, format!("`{typed}` has no meaning in a formula"), *mend));
         } else if "+-*/^(),".contains(first) {

@@ -93,7 +93,7 @@ impl<S: Scalar> Dense<S, 1> {
     /// The polynomial less a constant.
     #[inline(always)]
     pub(super) fn lowered(mut self, by: S) -> Self {
-        self.start[0] = self.start[0] - by;
+        self.start[0] -= by;
         self
     }
 

@@ -118,7 +118,7 @@ impl Builder<'_> {
                 );
             }
         }
-        let (mut keys, node) = read::metric(source, self.faults)?;
+        let (mut keys, node) = read::metric(&source, self.faults)?;
         for (key, given) in [
             ("name", node.at("name").is_some()),
             ("file", keys.file.is_some()),

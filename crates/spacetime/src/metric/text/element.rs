@@ -260,7 +260,7 @@ impl Reader {
                 }
                 Ok(place) => all[place] = Some(node.unwrap_or_else(|| self.graph.constant(1.0))),
                 Err((what, mend)) => {
-                    self.faults.push(DefinitionFault::whole(Part::ComponentName(i), what, mend))
+                    self.faults.push(DefinitionFault::whole(Part::ComponentName(i), what, mend));
                 }
             }
         }
