@@ -266,7 +266,7 @@ fn two_charged_holes_bend_light() {
 }
 
 #[test]
-fn boyer_lindquist_text_gives_the_rays_of_kerr() {
+fn the_deformed_metric_without_deformation_gives_the_rays_of_kerr() {
     let text = element("johannsen", &[("spin", 0.7)]);
     let (tracer, kerr) = (tracer(&text), Integrator::new(Kerr::new(0.7), FINE, 20_000).boxed());
     for impact in [[7.0, 1.0], [-6.0, 3.0], [1.0, 8.0], [12.0, -5.0]] {
