@@ -109,7 +109,7 @@ fn names_that_are_known_take_parameters_alone() {
     assert!((horizon - (1.0 + (1.0_f64 - 0.25 - 0.01).sqrt())).abs() < 1e-15);
     assert_eq!(Scene::from_toml(&scene.to_toml(), Path::new("")).unwrap(), scene);
     for (line, at, what) in [
-        ("spacetime.parameters.chargé = 0.1", "chargé", "this is no key"),
+        ("spacetime.parameters.chargé = 0.1", "é", "this is no key"),
         ("spacetime.parameters.carge = 0.1", "0.1", "has no parameter `carge`"),
         ("spacetime.parameters.charge = 0.9", "parameters.charge", "not a number"),
         ("spacetime.horizon = 2", "2", "`spacetime.horizon` would change it"),

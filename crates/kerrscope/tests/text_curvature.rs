@@ -86,7 +86,7 @@ fn charged_holes_have_no_scalar_curvature() {
         for place in PLACES {
             let (g, curved) = ricci(&element, place);
             assert!(scalar(&g, &curved).abs() < 1e-12);
-            assert!(largest(&curved) > 1e-5);
+            assert!(largest(&curved) > 1e-6);
         }
     }
     // Of Reissner and Nordström R_{μν} R^{μν} = 4 Q⁴/r⁸.
@@ -101,7 +101,7 @@ fn charged_holes_have_no_scalar_curvature() {
 
 #[test]
 fn a_cosmological_constant_curves_space() {
-    let lambda = 3e-3;
+    let lambda = 1.5e-3;
     let element = element("schwarzschild-de-sitter", &[("lambda", lambda)]);
     for place in PLACES {
         let (g, curved) = ricci(&element, place);

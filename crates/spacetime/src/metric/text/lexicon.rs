@@ -12,7 +12,7 @@ const MOST: usize = 256;
 pub(super) struct Lexicon {
     nodes: HashMap<String, NodeId>,
     /// The names in their order.
-    order: Vec<String>,
+    all: Vec<String>,
 }
 
 impl Names for Lexicon {
@@ -21,7 +21,7 @@ impl Names for Lexicon {
     }
 
     fn known(&self) -> Vec<String> {
-        self.order.clone()
+        self.all.clone()
     }
 }
 
@@ -32,7 +32,10 @@ impl Lexicon {
         graph: &mut Graph,
         faults: &mut Vec<DefinitionFault>,
     ) -> Self {
-        let mut lexicon = Self { nodes: HashMap::new(), order: Vec::new() };
+        let parameters = definition.parameters.iter().map(|(name, _)| name);
+        let lets = definition.lets.iter().map(|(name, _)| name);
+        let all = definition.coordinates.iter().chain(parameters).chain(lets).cloned().collect();
+        let mut lexicon = Self { nodes: HashMap::new(), all };
         let mut fault = |part, what: String, mend: &str| {
             faults.push(DefinitionFault::whole(part, what, mend));
         };
@@ -88,8 +91,6 @@ impl Lexicon {
             fault(part, format!("`{name}` is the name of a function or of a number"), "choose another name");
         } else if self.nodes.insert(name.to_owned(), node).is_some() {
             fault(part, format!("`{name}` is the name of two things"), "give one of them another name");
-        } else {
-            self.order.push(name.to_owned());
         }
     }
 }
