@@ -18,6 +18,8 @@ const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (Some("scenes/earth.toml"), &[], "scenes/earth.png"),
     (Some("scenes/room.toml"), &[], "scenes/room.png"),
     (Some("scenes/well.toml"), &[], "scenes/well.png"),
+    (Some("scenes/wormhole.toml"), &[], "scenes/wormhole.png"),
+    (Some("scenes/two-holes.toml"), &[], "scenes/two-holes.png"),
 ];
 
 /// Draws them all again.

@@ -15,10 +15,11 @@ use kerrscope::spacetime::geodesic::{
     Fate, Integrator, ObstacleTracer, Path, Query, Ray, Scheme, Side, Tracer,
 };
 use kerrscope::spacetime::kerr::{horizons, redshift_factor};
-use kerrscope::spacetime::metric::Kerr;
+use kerrscope::spacetime::metric::{Kerr, LineElement};
 use kerrscope::spacetime::observer::impact_ray;
 use serde::Serialize;
 use std::fmt::Write;
+use std::sync::Arc;
 
 /// Steps after which the ray of a hole without a scene is given up.
 const MAX_STEPS: usize = 100_000;
@@ -115,6 +116,8 @@ struct Crossing {
 struct Direction {
     theta: f64,
     phi: f64,
+    /// On the other side of a wormhole.
+    other_side: bool,
 }
 
 #[derive(Serialize)]
@@ -123,9 +126,11 @@ struct Hit {
     position: [f64; 3],
 }
 
-/// A ray, the hole it passes (none in flat space) and what follows it.
+/// A ray, the hole it passes (none in flat space, or in a metric as text) and what follows it.
 struct Shot {
     spin: Option<f64>,
+    /// The metric, if it is a text.
+    element: Option<Arc<LineElement>>,
     ray: Ray,
     follower: Follower,
 }
@@ -176,7 +181,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         TraceFormat::Text => print(&text(&output(&shot, &path, arguments.path.is_some()))),
         TraceFormat::Csv => print(&csv(&path)),
         TraceFormat::Svg => {
-            print(&side_view::draw(&path, shot.spin.map_or(0.0, |a| horizons(a).0), &title(&shot, &path)))
+            let horizon = match &shot.element {
+                Some(element) => element.horizon(),
+                None => shot.spin.map_or(0.0, |a| horizons(a).0),
+            };
+            print(&side_view::draw(&path, horizon, &title(&shot, &path)))
         }
     }
 }
@@ -190,6 +199,13 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
     let spin = scene.spacetime.spin();
     let ray = if let (Some(alpha), Some(beta)) = (arguments.alpha, arguments.beta) {
         let place = scene.observer.place;
+        if scene.spacetime.text().is_some() && place.r.is_finite() {
+            return Err(Failure::Input(
+                "in a metric as text impact parameters are known at infinity only: give --pixel, or set \
+                 observer.distance=inf and screen.kind=impact"
+                    .to_owned(),
+            ));
+        }
         impact_ray(spin, place.theta, place.r, [alpha, beta]).map(|ray| ray.turned(place.phi))
     } else {
         let camera = Camera::new(&scene).map_err(|e| Failure::Input(e.to_string()))?;
@@ -202,7 +218,8 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
     } else {
         Follower::Among(obstacle_tracer(&scene), world(&scene))
     };
-    Ok(Shot { spin, ray, follower })
+    let element = scene.spacetime.text().cloned();
+    Ok(Shot { spin, element, ray, follower })
 }
 
 /// A hole without a scene.
@@ -230,7 +247,7 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
             )));
         }
     };
-    Ok(Shot { spin: Some(spin), ray, follower: Follower::Alone(tracer) })
+    Ok(Shot { spin: Some(spin), element: None, ray, follower: Follower::Alone(tracer) })
 }
 
 /// The point of the picture that is asked for, in pixels.
@@ -285,9 +302,13 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
     Output {
         engine: shot.follower.name(),
         fate: fate(path.fate),
-        conserved: Conserved { lambda: finite(conserved.lambda), eta: finite(conserved.eta) },
+        conserved: Conserved {
+            lambda: finite(conserved.lambda),
+            // Of any other metric no fourth constant of the motion is known.
+            eta: finite(conserved.eta).filter(|_| shot.element.is_none()),
+        },
         crossings: crossings.collect(),
-        direction: path.direction.map(|[theta, phi]| Direction { theta, phi }),
+        direction: path.direction.map(|[theta, phi]| Direction { theta, phi, other_side: path.other_side }),
         hit: path.hit.map(|hit| Hit { object: hit.object, position: hit.position }),
         steps: path.steps,
         error_estimate: finite(path.error_estimate),
@@ -317,8 +338,9 @@ fn text(output: &Output) -> String {
         output.engine,
         output.error_estimate.map_or_else(|| "-".to_owned(), |e| format!("{e:.1e}")),
     );
-    if let Some(Direction { theta, phi }) = output.direction {
-        let _ = writeln!(s, "light comes from theta {theta:.9}, phi {phi:.9} rad");
+    if let Some(Direction { theta, phi, other_side }) = output.direction {
+        let sky = if other_side { " of the sky on the other side" } else { "" };
+        let _ = writeln!(s, "light comes from theta {theta:.9}, phi {phi:.9} rad{sky}");
     }
     if let Some(Hit { object, position: [x, y, z] }) = output.hit {
         let _ = writeln!(s, "object {object} is met at x {x:.9}, y {y:.9}, z {z:.9} M");
@@ -353,6 +375,9 @@ fn csv(path: &Path) -> String {
 
 fn title(shot: &Shot, path: &Path) -> String {
     let conserved = shot.ray.conserved(shot.spin.unwrap_or(0.0));
+    if shot.element.is_some() {
+        return format!("λ = {:.4} M: {}", conserved.lambda, fate(path.fate));
+    }
     let hole = shot.spin.map_or_else(|| "flat space".to_owned(), |a| format!("a = {a}"));
     format!("{hole}, λ = {:.4} M, η = {:.4} M²: {}", conserved.lambda, conserved.eta, fate(path.fate))
 }

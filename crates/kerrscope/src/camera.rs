@@ -56,7 +56,7 @@ impl Camera {
         let roll = scene.screen.roll.sin_cos();
         let (width, height) = (f64::from(scene.render.width), f64::from(scene.render.height));
         let local = |project| -> Result<Lens, ObserverError> {
-            let observer = Box::new(Observer::new(spin, place, motion)?);
+            let observer = Box::new(scene.spacetime.observer(place, motion)?);
             let axes = Axes::new(&observer, scene.screen.look_at, roll);
             Ok(Lens::Local { observer, axes, project })
         };

@@ -34,21 +34,24 @@ fn chart() -> impl Strategy<Value = Option<Coordinates>> {
 }
 
 fn spacetimes() -> impl Strategy<Value = Spacetime> {
+    // Of texts `metric_faults` reads what is written: what goes with them is another choice.
     prop_oneof![
         (option::of(number(-1.0, 1.0)), chart()).prop_map(|(spin, chart)| Spacetime {
             name: SpacetimeName::Kerr,
             spin,
-            chart
+            chart,
+            ..Spacetime::default()
         }),
         (option::of(Just(0.0)), chart()).prop_map(|(spin, chart)| Spacetime {
             name: SpacetimeName::Schwarzschild,
             spin,
-            chart
+            chart,
+            ..Spacetime::default()
         }),
         option::of(number(-1.0, 1.0)).prop_map(|spin| Spacetime {
             name: SpacetimeName::Minkowski,
             spin,
-            chart: None
+            ..Spacetime::default()
         }),
     ]
 }
@@ -276,7 +279,7 @@ fn scene_files() -> impl Strategy<Value = SceneFile> {
                 // Not for the closed form.
                 render.engine = Engine::Integrator;
             }
-            SceneFile { spacetime, observer, screen, disk, object, sky, render, camera }
+            SceneFile { spacetime, observer, screen, disk, object, sky, other_sky: None, render, camera }
         },
     )
 }

@@ -1,13 +1,16 @@
 //! The engines that are measured.
 
 use super::course::SPIN;
+use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
 use kerrscope::spacetime::closed::ClosedForm;
-use kerrscope::spacetime::geodesic::{Integrator, Scheme, Tracer};
-use kerrscope::spacetime::metric::{Components, Kerr};
+use kerrscope::spacetime::geodesic::{Integrator, Scheme, TextTracer, Tracer};
+use kerrscope::spacetime::metric::{Components, Kerr, LineElement};
+use std::path::Path;
+use std::sync::Arc;
 
 /// The names of engines.
-pub const ENGINES: [&str; 3] = ["closed-form", "integrator", "components"];
+pub const ENGINES: [&str; 4] = ["closed-form", "integrator", "components", "text"];
 
 /// Steps after which a ray is given up.
 const MOST_STEPS: usize = 100_000;
@@ -72,8 +75,27 @@ impl Contender {
                 tracer: tracer.boxed(),
             });
         }
+        for level in levels() {
+            all.extend(text().map(|element| Self {
+                engine: ENGINES[3],
+                method: "tsit5",
+                tolerance: Some(1e-6),
+                level,
+                one_in: 1,
+                tracer: Box::new(TextTracer::new(element, scheme, MOST_STEPS).with_level(level)),
+            }));
+        }
         all
     }
+}
+
+/// The same hole as text; its formulas are the program's own, and compile.
+fn text() -> Option<Arc<LineElement>> {
+    let keys = format!(
+        "spacetime = {{ name = \"kerr-text\", parameters = {{ spin = {SPIN} }} }}\ndisk.model = \"none\""
+    );
+    let scene = Scene::from_toml(&keys, Path::new("")).ok()?;
+    scene.spacetime.text().cloned()
 }
 
 /// What the others are compared with: 48 nodes leave nothing but rounding.

@@ -25,7 +25,7 @@ use kerrscope::spacetime::Level;
     kerrscope bench --simd baseline --format json"
 )]
 pub struct Arguments {
-    /// Only this engine: closed-form, integrator or components
+    /// Only this engine: closed-form, integrator, components or text
     #[arg(long, value_name = "ENGINE", value_parser = contender::ENGINES)]
     engine: Option<String>,
     /// Only these vector instructions: baseline, avx2 or avx512

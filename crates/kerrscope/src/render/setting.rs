@@ -121,8 +121,7 @@ pub(super) fn pixel_angle(scene: &Scene) -> f64 {
 }
 
 /// The sky of a picture whose pixels cover an angle on it if nothing bends light.
-pub(super) fn sky(scene: &Scene, pixel: f64) -> Result<Sky, TextureError> {
-    let sky = &scene.sky;
+pub(super) fn sky(sky: &scene::Sky, pixel: f64) -> Result<Sky, TextureError> {
     Ok(match &sky.picture {
         SkyPicture::Black => Sky::Black,
         SkyPicture::Uniform { color } => Sky::Uniform(linear(*color) * sky.brightness),

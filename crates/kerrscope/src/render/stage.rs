@@ -29,6 +29,8 @@ pub struct Stage {
     disk: Option<Disk>,
     legs: Option<Legs>,
     sky: Sky,
+    /// That on the other side of a wormhole.
+    other_sky: Sky,
     /// Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
     pixel: f64,
     sampler: Sampler,
@@ -64,11 +66,19 @@ pub struct Replay {
     views: Vec<View>,
 }
 
-/// What a ray sees: light gathered on its way, and the direction of the sky behind, if it sees it.
+/// Where light comes from at infinity.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Origin {
+    pub(super) direction: Vec3<f64>,
+    /// On the other side of a wormhole.
+    pub(super) other_side: bool,
+}
+
+/// What a ray sees: light gathered on its way, and where the sky behind, if it sees it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     beam: Beam,
-    sky: Option<Vec3<f64>>,
+    sky: Option<Origin>,
 }
 
 impl Stage {
@@ -102,7 +112,8 @@ impl Stage {
             query,
             disk,
             legs: setting::legs(scene)?,
-            sky: setting::sky(scene, pixel)?,
+            sky: setting::sky(&scene.sky, pixel)?,
+            other_sky: scene.other_sky.as_ref().map_or(Ok(Sky::Black), |other| setting::sky(other, pixel))?,
             pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
             adaptive: scene.render.adaptive,
@@ -193,7 +204,7 @@ impl Stage {
 
     /// Whether the sky looks different in different directions.
     pub(super) fn sky_varies(&self) -> bool {
-        !matches!(self.sky, Sky::Black | Sky::Uniform(_))
+        [&self.sky, &self.other_sky].iter().any(|sky| !matches!(sky, Sky::Black | Sky::Uniform(_)))
     }
 
     /// The mean light of a pixel's rays.
@@ -267,13 +278,20 @@ impl Stage {
 
     /// The mean light of a pixel whose rays see this.
     pub(super) fn mean(&self, views: &[View]) -> Light {
-        let mut angle = self.pixel / (views.len() as f64).sqrt();
-        if let Sky::Panorama(_) = self.sky {
-            angle = footprint(views.iter().filter_map(|view| view.sky), angle);
-        }
+        let unbent = self.pixel / (views.len() as f64).sqrt();
+        let angles = [(&self.sky, false), (&self.other_sky, true)].map(|(sky, other_side)| {
+            let seen = views.iter().filter_map(|view| view.sky);
+            match sky {
+                Sky::Panorama(_) => {
+                    let seen = seen.filter(|origin| origin.other_side == other_side);
+                    footprint(seen.map(|origin| origin.direction), unbent)
+                }
+                _ => unbent,
+            }
+        });
         let mut sum = Light::DARK;
         for view in views {
-            sum += self.light(view, angle);
+            sum += self.light(view, angles);
         }
         sum * (1.0 / views.len() as f64)
     }
@@ -312,12 +330,18 @@ impl Stage {
         replay.points.clear();
         replay.points.push(point);
         self.view(replay, tally);
-        replay.views.iter().map(|view| self.light(view, self.pixel)).sum()
+        replay.views.iter().map(|view| self.light(view, [self.pixel; 2])).sum()
     }
 
-    /// A view's light, if the ray stands for an angle on the sky.
-    fn light(&self, view: &View, angle: f64) -> Light {
-        let sky = view.sky.map_or(Light::DARK, |n| self.sky.radiance(n, angle));
+    /// A view's light, if the ray stands for an angle on the sky, or for another on that of the other side.
+    fn light(&self, view: &View, [here, there]: [f64; 2]) -> Light {
+        let sky = view.sky.map_or(Light::DARK, |Origin { direction, other_side }| {
+            if other_side {
+                self.other_sky.radiance(direction, there)
+            } else {
+                self.sky.radiance(direction, here)
+            }
+        });
         view.beam.end(sky)
     }
 
@@ -329,15 +353,18 @@ impl Stage {
             let path = if *arrives { paths.next() } else { None };
             let crossings = path.iter().flat_map(|path| &path.crossings);
             let hits = self.disk.iter().flat_map(|disk| crossings.clone().map(|c| disk.hit(c.r, c.position)));
-            let direction = path.and_then(|path| path.direction);
-            replay.views.push(self.seen(hits, direction.map(|[theta, phi]| towards(theta, phi))));
+            let origin = path.and_then(|path| {
+                let [theta, phi] = path.direction?;
+                Some(Origin { direction: towards(theta, phi), other_side: path.other_side })
+            });
+            replay.views.push(self.seen(hits, origin));
         }
         replay.points.clear();
     }
 
     /// What a ray sees that crosses the disk's plane in these places, in this order, and comes from a
     /// direction of the sky or from nowhere.
-    pub(super) fn seen(&self, hits: impl Iterator<Item = DiskHit>, direction: Option<Vec3<f64>>) -> View {
+    pub(super) fn seen(&self, hits: impl Iterator<Item = DiskHit>, origin: Option<Origin>) -> View {
         let mut beam = Beam::new();
         if let Some(disk) = &self.disk {
             for hit in hits {
@@ -346,7 +373,7 @@ impl Stage {
                 }
             }
         }
-        View { beam, sky: direction.filter(|_| !beam.is_blocked()) }
+        View { beam, sky: origin.filter(|_| !beam.is_blocked()) }
     }
 
     /// Traces the rays at points of the picture; tells of a path for each, or of none where no photon

@@ -1,13 +1,18 @@
 //! What traces the rays of a scene.
 
-use crate::scene::{Coordinates, Engine, Method, Scene};
+use crate::scene::{Coordinates, Engine, Method, Scene, Spacetime};
 use crate::spacetime::Level;
 use crate::spacetime::closed::{ClosedForm, NODES};
-use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, SphericalIntegrator, Straight, Tracer};
+use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, SphericalIntegrator, Straight, TextTracer, Tracer};
 use crate::spacetime::metric::Kerr;
+use std::sync::Arc;
 
 /// The tracer that a scene asks for, with the instructions of a level.
 pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
+    if let Spacetime::Text(element) = &scene.spacetime {
+        let steps = scene.render.max_steps as usize;
+        return Box::new(TextTracer::new(Arc::clone(element), scheme(scene), steps).with_level(level));
+    }
     match (scene.spacetime.spin(), scene.render.engine) {
         (None, _) => Box::new(Straight),
         (Some(spin), Engine::ClosedForm) => {

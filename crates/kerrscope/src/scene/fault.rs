@@ -156,6 +156,19 @@ impl Place {
         Self { source: Arc::clone(source), span: None }
     }
 
+    /// Bytes of a text that stands here in quotation marks; all of it if they are none, or if it is not written plainly.
+    pub(crate) fn within(&self, text: &str, inner: Range<usize>) -> Self {
+        let typed = self.span.clone().and_then(|span| self.source.text.get(span)).unwrap_or("");
+        let quote = typed.find(text).filter(|quote| *quote > 0 && typed.len() == text.len() + 2 * quote);
+        match (quote, &self.span) {
+            (Some(quote), Some(span)) if !inner.is_empty() || inner.start > 0 => {
+                let start = span.start + quote;
+                Self::new(&self.source, start + inner.start..start + inner.end)
+            }
+            _ => self.clone(),
+        }
+    }
+
     /// Whether the text goes on with this character.
     pub(crate) fn follows(&self, c: char) -> bool {
         let span = self.span.clone().unwrap_or_default();
@@ -208,6 +221,11 @@ impl Collector {
         let (message, help) = text();
         let Place { source, span } = place.clone();
         self.faults.push(Fault { source, span, message, help });
+    }
+
+    /// How many faults there are so far.
+    pub(crate) fn len(&self) -> usize {
+        self.faults.len() + self.omitted
     }
 
     /// Whether nothing is wrong so far.

@@ -68,6 +68,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// What is seen where light comes from infinity.
     pub sky: Sky,
+    /// The sky on the other side, where there is one.
+    pub other_sky: Option<Sky>,
     /// How finely and how exactly the picture is computed.
     pub render: Render,
     /// How light becomes a picture.
@@ -139,16 +141,17 @@ impl Scene {
             Surface::Picture { path, .. } => Some(path.as_path()),
             Surface::Ring { .. } => None,
         });
-        let sky = match &self.sky.picture {
+        let skies = [Some(&self.sky), self.other_sky.as_ref()].into_iter().flatten();
+        let skies = skies.filter_map(|sky| match &sky.picture {
             SkyPicture::Panorama { path, .. } => Some(path.as_path()),
             _ => None,
-        };
+        });
         let things = self.objects.iter().filter_map(|object| match &object.pattern {
             ObjectPattern::Picture { path } => Some(path.as_path()),
             _ => None,
         });
         let things: std::collections::BTreeSet<_> = things.collect();
-        disk.into_iter().chain(sky).chain(things)
+        disk.into_iter().chain(skies).chain(things)
     }
 
     /// The keys that the scene was built from, with every default.

@@ -6,8 +6,9 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use super::fault::{Collector, Fault, Faults, Place, Source};
+use super::file::Spacetime;
 use super::tree::{self, Node};
-use super::{Scene, SceneFile, build, check, overrides};
+use super::{Scene, SceneFile, build, check, overrides, shape};
 
 /// The most bytes that a scene may have.
 const MAX_BYTES: usize = 8 << 20;
@@ -19,6 +20,17 @@ pub(super) fn keys(source: Arc<Source>) -> Result<SceneFile, Faults> {
     let mut faults = Collector::default();
     let typed = type_in(Ok(source), &[], &mut faults);
     faults.finish(typed.file)
+}
+
+/// Reads a metric's file: the keys of `[spacetime]`, at its top, and where they stand. None if it could not be read whole.
+pub(super) fn metric(source: &Arc<Source>, faults: &mut Collector) -> Option<(Spacetime, Node)> {
+    faults.add_source(source);
+    let before = faults.len();
+    let (mut root, complete) = tree::parse(source, faults);
+    let schema = shape::property(&SCHEMA, "spacetime")?;
+    check::check(&mut root, schema, faults);
+    let keys = root.to_toml().try_into().ok()?;
+    (complete && faults.len() == before).then_some((keys, root))
 }
 
 /// Reads a scene.

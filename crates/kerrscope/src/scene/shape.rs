@@ -115,6 +115,9 @@ fn phrase(schema: &Json) -> String {
                 let required = schema.get("required").and_then(Json::as_array);
                 required.is_some_and(|keys| keys.iter().any(|k| k == key))
             };
+            if schema.get("additionalProperties").is_some_and(Json::is_object) {
+                return "{ name = …, … }".to_owned();
+            }
             let mut keys: Vec<&str> = properties(schema).into_iter().map(|(key, _)| key).collect();
             keys.sort_by_key(|key| !required(key));
             let keys: Vec<String> = keys.iter().map(|key| format!("{key} = …")).collect();
@@ -134,14 +137,25 @@ pub(super) fn properties(schema: &Json) -> Vec<(&str, &Json)> {
     properties
 }
 
-/// The schema of one key of a table.
+/// The schema of one key of a table, which may allow any key.
 pub(super) fn property<'s>(schema: &'s Json, key: &str) -> Option<&'s Json> {
-    schema.get("properties")?.get(key)
+    let known = schema.get("properties").and_then(|properties| properties.get(key));
+    known.or_else(|| schema.get("additionalProperties").filter(|any| any.is_object()))
 }
 
 /// Whether `inf` is allowed.
 pub(super) fn may_be_infinite(schema: &Json) -> bool {
     schema.get("x-infinity").and_then(Json::as_bool).unwrap_or(false)
+}
+
+/// "a", "a and b", "a, b and c".
+pub(super) fn all(phrases: &[impl AsRef<str>]) -> String {
+    let phrases: Vec<&str> = phrases.iter().map(AsRef::as_ref).collect();
+    match &phrases[..] {
+        [] => String::new(),
+        [one] => (*one).to_owned(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
 }
 
 /// "a", "a or b", "a, b or c".

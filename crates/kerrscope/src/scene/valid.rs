@@ -1,6 +1,7 @@
 //! A scene that can be drawn: numbers and choices, nothing left to interpret.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use super::file::Coordinates;
 use crate::disk::Mapping;
@@ -10,12 +11,13 @@ use crate::objects::Shape;
 use crate::render::Film;
 use crate::render::Layer;
 use crate::sky::Orientation;
-use kerrscope_spacetime::observer::{Drift, Motion, Place};
+use kerrscope_spacetime::metric::{LineElement, Text};
+use kerrscope_spacetime::observer::{Drift, Motion, Observer as Eye, ObserverError, Place};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The spacetime that light moves in; lengths are in its mass M.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Spacetime {
     /// Flat space.
     Minkowski,
@@ -26,15 +28,38 @@ pub enum Spacetime {
         /// Spin a in [−1, 1], along +z.
         spin: f64,
     },
+    /// A metric as text: stationary, and flat far away unless rays end before.
+    Text(Arc<LineElement>),
 }
 
 impl Spacetime {
-    /// The spin of the hole; `None` where there is no hole.
-    pub fn spin(self) -> Option<f64> {
+    /// The spin of the hole; `None` where there is no hole, or one whose formulas only are known.
+    pub fn spin(&self) -> Option<f64> {
         match self {
-            Self::Minkowski => None,
+            Self::Minkowski | Self::Text(_) => None,
             Self::Schwarzschild => Some(0.0),
-            Self::Kerr { spin } => Some(spin),
+            Self::Kerr { spin } => Some(*spin),
+        }
+    }
+
+    /// The metric, if it is a text.
+    pub fn text(&self) -> Option<&Arc<LineElement>> {
+        if let Self::Text(element) = self { Some(element) } else { None }
+    }
+
+    /// Whether space goes on behind a throat, under another sky.
+    pub fn has_throat(&self) -> bool {
+        self.text().is_some_and(|element| element.has_throat())
+    }
+
+    /// An observer in it.
+    ///
+    /// # Errors
+    /// If no observer can move so there, or the place is at infinity.
+    pub fn observer(&self, place: Place, motion: Motion) -> Result<Eye, ObserverError> {
+        match self {
+            Self::Text(element) => Eye::in_metric(&Text::new(element), place, motion),
+            _ => Eye::new(self.spin(), place, motion),
         }
     }
 }

@@ -28,7 +28,7 @@ pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
     fn settle(&self, _y: &mut [S; D], _slope: &mut [S; D]) {}
     /// Negative once the photon has left the chart's reach.
     fn reach(&self, y: &[S; D]) -> S;
-    /// 1/radius.
+    /// What is above 1/horizon where the photon is captured: 1/radius as a rule.
     fn inverse_radius(&self, y: &[S; D]) -> S;
     /// A step over which a free photon turns by at most `angle` as seen from the origin.
     fn step_for(&self, y: &[S; D], angle: f64) -> S;
@@ -90,18 +90,18 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
     }
     #[inline(always)]
     fn reach(&self, y: &[S; D]) -> S {
-        y[0]
+        y[0] - self.metric.edge()
     }
     #[inline(always)]
     fn inverse_radius(&self, y: &[S; D]) -> S {
-        self.metric.inverse_radius(y[0], &[y[1], y[2], y[3]])
+        self.metric.inverse_depth(y[0], &[y[1], y[2], y[3]])
     }
     #[inline(always)]
     fn step_for(&self, y: &[S; D], angle: f64) -> S {
         let j = [y[5], y[6], y[7]];
         y[0].constant(angle) / (dot(&j, &j).sqrt() + self.energy.abs() + y[4].abs() * y[0])
     }
-    /// Just beyond w = 0, from w′ and what a free photon's w″ and a unit mass's make of it. A photon that has more than
+    /// Just beyond w = 0, or the edge, from w′ and what a free photon's w″ and a unit mass's make of it. A photon that has more than
     /// an eighth of a turn to go does not get there in one step.
     #[inline(always)]
     fn way_out(&self, y: &[S; D], slope: &[S; D]) -> S {
@@ -113,7 +113,8 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
         let (approach, across) = (-slope[0], dot(&j, &j) * y[0] * y[0]);
         let turn = across / approach.squared() * 0.5 + y[0] * 2.0 + 1.0;
         let near = across.less(approach * approach.abs());
-        S::select(near, (y[0].max(zero) + 1e-4) / (approach * turn), never)
+        let rest = y[0] - self.metric.edge();
+        S::select(near, (rest.max(zero) + 1e-4) / (approach * turn), never)
     }
 }
 
@@ -162,7 +163,8 @@ impl<M: Metric, const D: usize> Chart<f64, D> for BoundedAffine<M> {
         self.limit - dot(&[y[0], y[1], y[2]], &[y[0], y[1], y[2]]).sqrt()
     }
     fn inverse_radius(&self, y: &[f64; D]) -> f64 {
-        1.0 / self.flow.metric.radius(&[y[0], y[1], y[2]])
+        let w = 1.0 / dot(&[y[0], y[1], y[2]], &[y[0], y[1], y[2]]).sqrt();
+        self.flow.metric.inverse_depth(w, &[y[0] * w, y[1] * w, y[2] * w])
     }
     fn step_for(&self, y: &[f64; D], angle: f64) -> f64 {
         angle * dot(&[y[0], y[1], y[2]], &[y[0], y[1], y[2]]).sqrt()

@@ -133,6 +133,13 @@ fn weighted_sum<S: Scalar, const D: usize, const N: usize>(y: &[S; D], weights: 
 }
 
 impl<S: Scalar> Dense<S, 1> {
+    /// The polynomial less a constant.
+    #[inline(always)]
+    pub(super) fn lowered(mut self, by: S) -> Self {
+        self.start[0] -= by;
+        self
+    }
+
     /// The value at θ and dy/dθ.
     #[inline(always)]
     fn tangent(&self, theta: S) -> [S; 2] {

@@ -5,8 +5,10 @@ use super::convoy::Task;
 use super::inverted::{InvertedFlow, PLAIN, TIMED, pack};
 use super::log::{Log, Origin};
 use super::method::{Dop853, Method, Rk4, Tsit5};
+use super::throat::pass_throats;
 use super::walk::{Bounds, Control, End, Stop, walk};
 use super::{AffineFlow, Fate, Hit, ObstacleTracer, Obstacles, Path, Query, Ray, Side, Tracer};
+use super::winding::turn;
 use crate::lanes::Level;
 use crate::metric::{Inverted, Metric};
 use crate::tensor::dot;
@@ -113,6 +115,7 @@ impl<M: Metric> Integrator<M> {
         let bounds = Bounds {
             plane: query.plane,
             inverse_horizon,
+            exact_fall: false,
             inverse_exit: Some(1.0 / (EXIT * metric.horizon())),
         };
         let flow = InvertedFlow { metric, energy: ray.energy };
@@ -169,7 +172,12 @@ impl<M: Metric> Integrator<M> {
     }
 
     fn bounds(&self, query: &Query) -> Bounds {
-        Bounds { plane: query.plane, inverse_horizon: 1.0 / self.reversed.horizon(), inverse_exit: None }
+        Bounds {
+            plane: query.plane,
+            inverse_horizon: 1.0 / self.reversed.horizon(),
+            exact_fall: self.reversed.has_throat(),
+            inverse_exit: None,
+        }
     }
 
     fn follow_inverted<R: Method<STAGES>, const D: usize, const STAGES: usize>(
@@ -183,7 +191,13 @@ impl<M: Metric> Integrator<M> {
         let y = pack::<f64, D>(&ray.start);
         let origin = Origin::of(&self.reversed, ray, query);
         let mut log = Log::new(&flow, self.reversed, query, origin, path).among(way);
-        let end = log.walk::<R, STAGES>(y, &self.bounds(query), &self.control());
+        let (bounds, control) = (self.bounds(query), self.control());
+        let end = log.walk::<R, STAGES>(y, &bounds, &control);
+        let end = if bounds.exact_fall && end.stop == Stop::Fell {
+            pass_throats::<_, R, D, STAGES>(&flow, end, &bounds, &control, path)
+        } else {
+            end
+        };
         self.conclude(ray, &flow, &end, ray.azimuth + end.swept, path);
     }
 
@@ -242,7 +256,8 @@ impl<M: Metric> Integrator<M> {
         } + self.typical_error();
         path.fate = match end.stop {
             Stop::Left => {
-                let n = state.n;
+                let n = self.reversed.way_out(ray.energy, &state);
+                let azimuth = azimuth + if self.reversed.edge() > 0.0 { turn(&state.n, &n) } else { 0.0 };
                 path.direction = Some([n[0].hypot(n[1]).atan2(n[2]), azimuth]);
                 Fate::Escaped
             }
@@ -317,6 +332,13 @@ impl<M: Metric> Integrator<M> {
         for path in &mut *paths {
             path.clear();
         }
+        if self.reversed.has_throat() {
+            // What goes on behind a throat is followed ray by ray.
+            for (ray, path) in rays.iter().zip(paths) {
+                self.trace(ray, query, path);
+            }
+            return;
+        }
         let corrections = vec![0.0; rays.len()];
         let task = Task { integrator: self, rays, query, paths: &mut *paths, corrections };
         if self.level.run_wide(task).is_err() {
@@ -356,7 +378,7 @@ fn drift<M: Metric>(metric: &M, energy: f64, start: &Inverted<f64>, end: &Invert
     let size = energy * energy + dot(&start.j, &start.j);
     let norm =
         (metric.norm(energy, end) - metric.norm(energy, start)).abs() / (energy * energy + end.q * end.q);
-    let momentum = (end.j[2] - start.j[2]).abs() / size.sqrt();
+    let momentum = if metric.is_axisymmetric() { (end.j[2] - start.j[2]).abs() / size.sqrt() } else { 0.0 };
     let carter = match (metric.carter(energy, start), metric.carter(energy, end)) {
         (Some(before), Some(after)) => (after - before).abs() / size,
         _ => 0.0,

@@ -13,6 +13,9 @@ mod ray;
 mod segment;
 mod spherical;
 mod straight;
+#[cfg(not(test))]
+mod text;
+mod throat;
 mod walk;
 mod winding;
 
@@ -28,6 +31,8 @@ pub use segment::{Curve, Line, Segment};
 pub use spherical::SphericalIntegrator;
 pub use straight::Straight;
 pub(crate) use walk::growth;
+#[cfg(not(test))]
+pub use text::TextTracer;
 
 use crate::tensor::Vec3;
 
@@ -40,7 +45,8 @@ pub enum Fate {
     Captured,
     /// It comes from something in the way; see [`Path::hit`].
     Hit,
-    /// Given up: too many steps, or steps that cannot be made small enough.
+    /// Given up: too many steps, or steps that cannot be made small enough, as where the metric has no value or not
+    /// the signature of a spacetime.
     #[default]
     StepLimit,
 }
@@ -107,6 +113,8 @@ pub struct Path {
     pub hit: Option<Hit>,
     /// Asymptotic direction (θ, φ) that the light comes from, φ unwrapped, if it escaped.
     pub direction: Option<[f64; 2]>,
+    /// Whether it comes from the other side of a wormhole: the direction is one of the sky there.
+    pub other_side: bool,
     /// How often light went round the hole, if asked for: periods of its motion in θ
     /// (Gralla & Lupsasca 2020, eq. 36: the fractional number of orbits), which without spin is the
     /// angle swept over 2π. NaN where that is not known.
@@ -127,6 +135,7 @@ impl Path {
         self.crossings.clear();
         self.hit = None;
         self.direction = None;
+        self.other_side = false;
         self.steps = 0;
         self.windings = f64::NAN;
         self.error_estimate = f64::NAN;

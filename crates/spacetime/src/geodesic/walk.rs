@@ -27,6 +27,8 @@ pub struct Bounds {
     pub plane: Vec3<f64>,
     /// 1/r of the horizon; infinite where there is none.
     pub inverse_horizon: f64,
+    /// Whether the place where it falls through is wanted: at a throat it goes on.
+    pub exact_fall: bool,
     /// For a photon that rises through the horizon: the 1/r at which it is well outside.
     pub inverse_exit: Option<f64>,
 }
@@ -131,7 +133,8 @@ where
         let near_axis = turn.abs() > winding::DOUBTFUL;
         let mut next = End { stop: Stop::GaveUp, y: step.end, swept: swept + turn, steps };
         let mut stop = if falls { Some(Stop::Fell) } else { None };
-        if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis || rises.is_some() {
+        let cut = falls && bounds.exact_fall;
+        if V::WANTS_SEGMENTS || crosses || grazes || leaves || near_axis || rises.is_some() || cut {
             let dense = M::dense(chart, &y, &stages, &step.end, &end_slope, h);
             let mut until = 1.0;
             if let Some(exit) = rises {

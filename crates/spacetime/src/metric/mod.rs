@@ -7,12 +7,14 @@ mod components;
 mod kerr;
 mod minkowski;
 mod schwarzschild;
+mod text;
 
 pub use components::Components;
 pub use kerr::Kerr;
 pub(crate) use kerr::{principal_null, scaled_radius};
 pub use minkowski::Minkowski;
 pub use schwarzschild::Schwarzschild;
+pub use text::{Definition, DefinitionFault, Kind, LineElement, NotFlat, Part, Reversal, Text};
 
 use crate::dual::Dual;
 use crate::scalar::Scalar;
@@ -117,6 +119,33 @@ pub trait Metric: Copy + Send + Sync {
             |i| n[i] * inverse_w,
         );
         S::select(near, self.radius(&x).recip(), w)
+    }
+
+    /// In the inverted chart, what is above 1/horizon where light is captured: 1/radius, unless a horizon is no surface
+    /// of equal radius.
+    #[inline(always)]
+    fn inverse_depth<S: Scalar>(&self, w: S, n: &Vec3<S>) -> S {
+        self.inverse_radius(w, n)
+    }
+
+    /// 1/distance from the origin where rays end as escaped: 0, unless space does not become flat.
+    fn edge(&self) -> f64 {
+        0.0
+    }
+
+    /// Whether the horizon is a throat, |x| = horizon, on whose other side space goes on as the mirror image of this.
+    fn has_throat(&self) -> bool {
+        false
+    }
+
+    /// Whether nothing depends on the azimuth, so that light keeps its J_z.
+    fn is_axisymmetric(&self) -> bool {
+        true
+    }
+
+    /// The unit vector of where light goes that ends escaped in this state.
+    fn way_out(&self, _energy: f64, state: &Inverted<f64>) -> Vec3<f64> {
+        state.n
     }
 }
 

@@ -93,6 +93,43 @@ pub enum ObserverError {
         /// Asked radius.
         r: f64,
     },
+    /// ∂t is not timelike here.
+    #[error(
+        "no observer is static at r = {r} M: the metric's g_tt is {time:.3e} there, which is not below 0"
+    )]
+    NotStatic {
+        /// Asked radius.
+        r: f64,
+        /// g_tt.
+        time: f64,
+    },
+    /// The metric has no value, or not the signature of a spacetime.
+    #[error("no observer can be at r = {r} M: the metric has no value there, or is not that of a spacetime")]
+    NoTetrad {
+        /// Asked radius.
+        r: f64,
+    },
+    /// On the other side.
+    #[error("r = {r} M is not outside the throat at r = {throat:.6} M")]
+    InsideThroat {
+        /// Asked radius.
+        r: f64,
+        /// The throat's radius.
+        throat: f64,
+    },
+    /// Beyond where rays end.
+    #[error("r = {r} M is not within r = {outer:.6} M, where rays end")]
+    OutOfReach {
+        /// Asked radius.
+        r: f64,
+        /// Where rays end.
+        outer: f64,
+    },
+    /// What is known of geodesics around Kerr holes alone.
+    #[error(
+        "orbits and free fall are known around Kerr holes only, and this spacetime is a metric of its own"
+    )]
+    OnlyAroundKerr,
     /// Flat space has no orbits.
     #[error("nothing orbits in flat space")]
     NothingToOrbit,
@@ -104,11 +141,8 @@ pub enum ObserverError {
     MovingAtInfinity,
 }
 
-/// Whether an observer can be at `place`, moving so, around a hole of spin a (`None`: in flat space).
-///
-/// # Errors
-/// The reason why not.
-pub fn check(spin: Option<f64>, place: &Place, motion: &Motion) -> Result<(), ObserverError> {
+/// Whether a motion is slower than light.
+pub(super) fn check_speed(motion: &Motion) -> Result<(), ObserverError> {
     if let Motion::Velocity(v) | Motion::VelocityFromFall(v) = motion {
         let speed = v.iter().map(|c| c * c).sum::<f64>().sqrt();
         // Also refuses NaN.
@@ -116,6 +150,15 @@ pub fn check(spin: Option<f64>, place: &Place, motion: &Motion) -> Result<(), Ob
             return Err(ObserverError::FasterThanLight { speed });
         }
     }
+    Ok(())
+}
+
+/// Whether an observer can be at `place`, moving so, around a hole of spin a (`None`: in flat space).
+///
+/// # Errors
+/// The reason why not.
+pub fn check(spin: Option<f64>, place: &Place, motion: &Motion) -> Result<(), ObserverError> {
+    check_speed(motion)?;
     if place.r.is_infinite() {
         return if *motion == Motion::Static { Ok(()) } else { Err(ObserverError::MovingAtInfinity) };
     }

@@ -1,6 +1,6 @@
 //! Orthonormal tetrads of observers at a finite place, and photons measured in them.
 
-use super::motion::{Motion, ObserverError, Place, check};
+use super::motion::{Motion, ObserverError, Place, check, check_speed};
 use super::polar_sin_cos;
 use super::site::Site;
 use crate::geodesic::{EXIT, Ray, Side};
@@ -58,6 +58,44 @@ impl Observer {
                 }
             }
         })
+    }
+
+    /// The observer at `place` in any metric that is regular there: r is the distance from the origin of its
+    /// coordinates. Known are those at rest, those without angular momentum (about z, if the metric is the same all around
+    /// it), and any velocity relative to the latter.
+    ///
+    /// # Errors
+    /// If no observer can move so there, or the place is at infinity.
+    pub fn in_metric<M: Metric>(metric: &M, place: Place, motion: Motion) -> Result<Self, ObserverError> {
+        check_speed(&motion)?;
+        let r = place.r;
+        if r.is_infinite() {
+            return Err(ObserverError::AtInfinity);
+        }
+        if matches!(motion, Motion::Orbit | Motion::Fall | Motion::VelocityFromFall(_)) {
+            return Err(ObserverError::OnlyAroundKerr);
+        }
+        let reversed = metric.reversed();
+        if r * metric.edge() >= 1.0 {
+            return Err(ObserverError::OutOfReach { r, outer: metric.edge().recip() });
+        }
+        if metric.has_throat() && r <= metric.horizon() {
+            return Err(ObserverError::InsideThroat { r, throat: metric.horizon() });
+        }
+        let observer = Self::build(&reversed, 0.0, &place, &motion, Side::Reversed);
+        let depth = reversed.inverse_depth(1.0 / r, &observer.position.map(|c| c / r));
+        if depth * reversed.horizon() > 1.0 {
+            return Err(ObserverError::InsideHorizon { r, horizon: metric.horizon() });
+        }
+        let time = observer.metric[0][0];
+        if motion == Motion::Static && time >= 0.0 {
+            return Err(ObserverError::NotStatic { r, time });
+        }
+        let vectors = observer.axes.iter().chain(&observer.lowered).flatten();
+        if !vectors.copied().all(f64::is_finite) {
+            return Err(ObserverError::NoTetrad { r });
+        }
+        Ok(observer)
     }
 
     /// In the chart `metric` with spin s.

@@ -20,8 +20,9 @@ pub(super) enum Kind {
     Nothing,
     /// Given up on, or never like another.
     Unknown,
-    /// It escapes, after so many crossings of the plane; whether to the side of the plane's normal.
-    Escaped { crossings: u8, above: bool },
+    /// It escapes, after so many crossings of the plane; whether to the side of the plane's normal, and whether behind a
+    /// wormhole.
+    Escaped { crossings: u8, above: bool, other_side: bool },
     /// It is captured, after so many crossings.
     Captured { crossings: u8 },
 }
@@ -38,6 +39,11 @@ impl Kind {
     /// Where the numbers of the direction begin, if the light escapes.
     pub(super) fn direction(self) -> Option<usize> {
         matches!(self, Self::Escaped { .. }).then(|| CROSSING * self.crossings())
+    }
+
+    /// Whether the light comes from the other side of a wormhole.
+    pub(super) fn is_other_side(self) -> bool {
+        matches!(self, Self::Escaped { other_side: true, .. })
     }
 
     /// How many numbers are interpolated.
@@ -112,7 +118,8 @@ fn kind(path: &Path, plane: &Plane) -> Kind {
     let known = path.crossings.iter().all(|c| c.r > 0.0 && c.position.iter().all(|c| c.is_finite()));
     match (path.fate, path.direction) {
         (Fate::Escaped, Some([theta, phi])) if known && theta.is_finite() && phi.is_finite() => {
-            Kind::Escaped { crossings, above: dot(&towards(theta, phi), &plane.normal()) > 0.0 }
+            let above = dot(&towards(theta, phi), &plane.normal()) > 0.0;
+            Kind::Escaped { crossings, above, other_side: path.other_side }
         }
         (Fate::Captured, _) if known => Kind::Captured { crossings },
         _ => Kind::Unknown,

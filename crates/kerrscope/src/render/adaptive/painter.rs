@@ -9,7 +9,7 @@ use super::patch::{Patch, put, take};
 use super::quadtree::Cell;
 use crate::disk::DiskHit;
 use crate::light::Light;
-use crate::render::stage::{Stage, View};
+use crate::render::stage::{Origin, Stage, View};
 use crate::render::tally::Tally;
 use crate::render::tile::Area;
 use crate::spacetime::{OnLanes, Scalar};
@@ -80,7 +80,9 @@ impl<'a> Painter<'a> {
         self.pick(cell, kind);
 
         let escapes = kind.direction().is_some();
-        let anywhere = escapes.then_some([0.0, 0.0, 1.0]);
+        let other_side = kind.is_other_side();
+        let from = |direction| Origin { direction, other_side };
+        let anywhere = escapes.then(|| from([0.0, 0.0, 1.0]));
         self.look(cell, kind);
         if self.sights.patches.is_empty() {
             let same = stage.mean(&[stage.seen(std::iter::empty(), anywhere)]);
@@ -110,7 +112,7 @@ impl<'a> Painter<'a> {
                 let first = 2 * sights.sheets;
                 let direction =
                     sights.directed.then(|| [number(first), number(first + 1), number(first + 2)]);
-                views.push(stage.seen(hits, direction.or(anywhere)));
+                views.push(stage.seen(hits, direction.map(from).or(anywhere)));
             }
             for (pixel, views) in some.iter().zip(views.chunks(samples as usize)) {
                 light[in_light(*pixel)] = stage.mean(views);

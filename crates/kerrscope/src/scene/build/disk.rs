@@ -7,7 +7,7 @@ use crate::scene::file::{self, DiskModel, Inner};
 use crate::scene::valid::{Disk, Spacetime, Surface};
 
 impl Builder<'_> {
-    pub(super) fn disk(&mut self, file: &file::Disk, spacetime: Spacetime) -> Option<Disk> {
+    pub(super) fn disk(&mut self, file: &file::Disk, spacetime: &Spacetime) -> Option<Disk> {
         let surface = match file.model {
             // A disk that is put away keeps its picture.
             DiskModel::None => return None,
@@ -38,11 +38,19 @@ impl Builder<'_> {
         })
     }
 
-    fn inner_edge(&mut self, file: &file::Disk, spacetime: Spacetime) -> f64 {
+    fn inner_edge(&mut self, file: &file::Disk, spacetime: &Spacetime) -> f64 {
         let orbits = spacetime.spin().map(Orbits::new);
         let inner = match (file.inner, orbits) {
             (Inner::Radius(inner), _) => inner,
             (Inner::Isco(_), Some(orbits)) => orbits.isco,
+            (Inner::Isco(_), None) if spacetime.text().is_some() => {
+                self.fault(
+                    &["disk.inner", "disk.model", "spacetime.name"],
+                    "`disk.inner = \"isco\"` is known around Kerr holes only, and this spacetime is a text",
+                    "give `disk.inner` a radius in M, or set `disk.model = \"none\"`",
+                );
+                return 0.0;
+            }
             (Inner::Isco(_), None) => {
                 self.fault(
                     &["disk.inner", "disk.model", "spacetime.name"],
@@ -52,7 +60,11 @@ impl Builder<'_> {
                 return 0.0;
             }
         };
-        if let (Inner::Radius(_), Some(Orbits { horizon, .. })) = (file.inner, orbits)
+        let horizon = match spacetime {
+            Spacetime::Text(element) if !element.has_throat() => Some(element.horizon()),
+            _ => orbits.map(|orbits| orbits.horizon),
+        };
+        if let (Inner::Radius(_), Some(horizon)) = (file.inner, horizon)
             && inner <= horizon
         {
             let horizon = readable(horizon);

@@ -8,6 +8,7 @@ mod object;
 mod observer;
 mod screen;
 mod sky;
+mod spacetime;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use kerrscope_spacetime::observer::Place;
 use serde::Serialize;
 
 use super::fault::{Collector, one_line};
-use super::file::{self, Coordinates, DiskModel, SceneFile, SpacetimeName};
+use super::file::{self, Coordinates, DiskModel, SceneFile};
 use super::tree::Node;
 use super::valid::{Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
@@ -40,26 +41,28 @@ pub(super) fn build(
     folder: &Path,
     faults: &mut Collector,
 ) -> Scene {
-    let file = typed.complete();
-    let mut builder = Builder { root, removed, folder, faults };
-    let spacetime = builder.spacetime(&file.spacetime);
-    let observer = builder.observer(&file, spacetime);
+    let mut file = typed.complete();
+    let mut builder = Builder { root, removed: removed.to_vec(), folder, faults };
+    let spacetime;
+    (spacetime, file.spacetime) = builder.spacetime(&file.spacetime);
+    let observer = builder.observer(&file, &spacetime);
     Scene {
-        spacetime,
         observer,
-        screen: builder.screen(&file.screen, spacetime, observer),
-        disk: builder.disk(&file.disk, spacetime),
-        objects: builder.objects(&file.object, spacetime),
-        sky: builder.sky(&file.sky),
-        render: builder.render(&file, spacetime, observer.place),
+        screen: builder.screen(&file.screen, &spacetime, observer),
+        disk: builder.disk(&file.disk, &spacetime),
+        objects: builder.objects(&file.object, &spacetime),
+        sky: builder.sky(&file.sky, "sky"),
+        other_sky: builder.other_sky(&file, &spacetime),
+        render: builder.render(&file, &spacetime, observer.place),
         display: builder.display(&file.camera.display),
+        spacetime,
         file,
     }
 }
 
 struct Builder<'a> {
     root: &'a Node,
-    removed: &'a [String],
+    removed: Vec<String>,
     folder: &'a Path,
     faults: &'a mut Collector,
 }
@@ -85,26 +88,7 @@ impl Builder<'_> {
         self.faults.push(&place, || (what.into(), mend.into()));
     }
 
-    fn spacetime(&mut self, file: &file::Spacetime) -> Spacetime {
-        let spin = file.spin.unwrap_or_default();
-        match file.name {
-            SpacetimeName::Kerr => Spacetime::Kerr { spin },
-            SpacetimeName::Schwarzschild => {
-                if spin != 0.0 {
-                    self.fault(
-                        &SPACETIME,
-                        format!("a Schwarzschild black hole does not turn: its spin cannot be {spin}"),
-                        "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
-                    );
-                }
-                Spacetime::Schwarzschild
-            }
-            // A scene's hole is put away, and its spin with it, to see the rest without it.
-            SpacetimeName::Minkowski => Spacetime::Minkowski,
-        }
-    }
-
-    fn render(&mut self, scene: &SceneFile, spacetime: Spacetime, place: Place) -> Render {
+    fn render(&mut self, scene: &SceneFile, spacetime: &Spacetime, place: Place) -> Render {
         let (file, shown) = (&scene.render, scene.camera.display.layer);
         let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
@@ -135,10 +119,11 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
+        self.render_text(scene, spacetime, &layers);
         let coordinates = self.light_coordinates(scene, spacetime, place);
         let engine = self.engine(scene, spacetime, coordinates);
         // Straight rays are faster than interpolation; whoever asks for a method's steps wants to see its errors.
-        let pays = spacetime != Spacetime::Minkowski
+        let pays = *spacetime != Spacetime::Minkowski
             && file.method == Method::Dop853
             && file.samples >= ADAPTIVE_SAMPLES;
         let things = !scene.object.is_empty();
@@ -170,11 +155,40 @@ impl Builder<'_> {
         }
     }
 
+    /// What cannot be done with a metric of which nothing but its components is known.
+    fn render_text(&mut self, scene: &SceneFile, spacetime: &Spacetime, layers: &BTreeSet<Layer>) {
+        let Some(element) = spacetime.text() else { return };
+        if scene.render.method == Method::Rk4 && (element.has_throat() || element.outer().is_finite()) {
+            self.fault(
+                &["render.method", "spacetime.name"],
+                "`method = \"rk4\"` does not go through a throat, and not to the end of space at `outer`",
+                "choose `render.method = \"dop853\"` or \"tsit5\"",
+            );
+        }
+        for layer in [Layer::T, Layer::G, Layer::Windings].into_iter().filter(|layer| layers.contains(layer))
+        {
+            self.fault(
+                &["render.layers", "camera.display.layer", "spacetime.name"],
+                format!(
+                    "the layer \"{}\" is computed around Kerr holes only, and this spacetime is a text",
+                    layer.word()
+                ),
+                "leave it out",
+            );
+        }
+    }
+
     /// The engine, chosen if the scene leaves it open.
-    fn engine(&mut self, scene: &SceneFile, spacetime: Spacetime, coordinates: Coordinates) -> Engine {
+    fn engine(&mut self, scene: &SceneFile, spacetime: &Spacetime, coordinates: Coordinates) -> Engine {
         let tilted = scene.disk.model != DiskModel::None && scene.disk.tilt != 0.0;
         let method = scene.render.method;
-        let reason = if spacetime == Spacetime::Minkowski {
+        let reason = if spacetime.text().is_some() {
+            Some((
+                &["render.engine", "spacetime.name"][..],
+                "the closed form is for Kerr holes, and this spacetime is a text",
+                "remove `render.engine`",
+            ))
+        } else if *spacetime == Spacetime::Minkowski {
             Some((
                 &["render.engine", "spacetime.name"][..],
                 "flat space has straight rays, not those of the closed form",

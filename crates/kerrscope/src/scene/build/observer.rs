@@ -11,7 +11,7 @@ const PLACE: [&str; 4] =
     ["observer.distance", "observer.position", "observer.inclination", "observer.azimuth"];
 
 impl Builder<'_> {
-    pub(super) fn observer(&mut self, file: &SceneFile, spacetime: Spacetime) -> Observer {
+    pub(super) fn observer(&mut self, file: &SceneFile, spacetime: &Spacetime) -> Observer {
         let place = self.place(&file.observer, spacetime);
         if place.r.is_infinite() && file.screen.kind != ScreenKind::Impact {
             let kind = if file.screen.kind == ScreenKind::Pinhole { "pinhole" } else { "angular" };
@@ -40,7 +40,7 @@ impl Builder<'_> {
         Observer { place, motion }
     }
 
-    fn place(&mut self, file: &file::Observer, spacetime: Spacetime) -> Place {
+    fn place(&mut self, file: &file::Observer, spacetime: &Spacetime) -> Place {
         let Some(position) = file.position else {
             return Place {
                 r: file.distance.unwrap_or_default(),
@@ -62,9 +62,9 @@ impl Builder<'_> {
         coordinates::from_kerr_schild(spacetime.spin(), position)
     }
 
-    fn motion(&mut self, spacetime: Spacetime, place: Place, motion: Motion) {
+    fn motion(&mut self, spacetime: &Spacetime, place: Place, motion: Motion) {
         let with = |first: &[&'static str]| [first, &PLACE, &["observer.motion"], &SPACETIME].concat();
-        if spacetime == Spacetime::Minkowski && place.r == 0.0 {
+        if spacetime.spin().is_none() && place.r == 0.0 {
             self.fault(
                 &with(&[]),
                 "the observer is at the origin of the coordinates",
@@ -72,7 +72,14 @@ impl Builder<'_> {
             );
             return;
         }
-        let Err(error) = check(spacetime.spin(), &place, &motion) else {
+        let checked = match spacetime {
+            Spacetime::Text(element) if place.r.is_infinite() && element.outer().is_finite() => {
+                Err(ObserverError::OutOfReach { r: place.r, outer: element.outer() })
+            }
+            Spacetime::Text(_) if place.r.is_finite() => spacetime.observer(place, motion).map(|_| ()),
+            _ => check(spacetime.spin(), &place, &motion),
+        };
+        let Err(error) = checked else {
             return;
         };
         let (keys, mend) = match &error {
@@ -117,6 +124,20 @@ impl Builder<'_> {
             ObserverError::MovingAtInfinity => {
                 let mend = "set `observer.motion = \"static\"`, or give a finite distance";
                 (with(&["observer.motion"]), mend.to_owned())
+            }
+            ObserverError::NotStatic { .. } => {
+                let mend = "move the observer outwards, or set `observer.motion = \"zamo\"`".to_owned();
+                (with(&[]), mend)
+            }
+            ObserverError::NoTetrad { .. } | ObserverError::InsideThroat { .. } => {
+                (with(&[]), "move the observer outwards".to_owned())
+            }
+            ObserverError::OutOfReach { outer, .. } => {
+                (with(&[]), format!("move the observer within r = {}", readable(*outer)))
+            }
+            ObserverError::OnlyAroundKerr => {
+                let mend = "choose \"static\" or \"zamo\", or a velocity [r, θ, φ] in units of c";
+                (vec!["observer.motion", "spacetime.name"], mend.to_owned())
             }
             // Told of single photons and of directions, which are not asked for here.
             ObserverError::NoSuchPhoton { .. } | ObserverError::AtInfinity => {

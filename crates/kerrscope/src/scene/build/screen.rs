@@ -1,13 +1,18 @@
 //! The screen.
 
-use kerrscope_spacetime::observer::{Motion, Observer as Eye, Place};
+use kerrscope_spacetime::observer::{Motion, Place};
 
 use super::Builder;
 use crate::scene::file;
 use crate::scene::valid::{Observer, Screen, ScreenKind, Spacetime};
 
 impl Builder<'_> {
-    pub(super) fn screen(&mut self, file: &file::Screen, spacetime: Spacetime, observer: Observer) -> Screen {
+    pub(super) fn screen(
+        &mut self,
+        file: &file::Screen,
+        spacetime: &Spacetime,
+        observer: Observer,
+    ) -> Screen {
         let height = file.field_of_view.unwrap_or_default();
         let mut too_high = |what: &str, mend: &str| {
             let what = format!("{what} cannot be {height}° high");
@@ -36,6 +41,13 @@ impl Builder<'_> {
                         "set `observer.motion = \"static\"`, or choose `screen.kind` \"pinhole\" or \"angular\"",
                     );
                 }
+                if spacetime.text().is_some() && observer.place.r.is_finite() {
+                    self.fault(
+                        &["screen.kind", "observer.distance", "spacetime.name"],
+                        "in a metric as text impact parameters are known at infinity only",
+                        "set `observer.distance = inf`, or choose `screen.kind` \"pinhole\" or \"angular\"",
+                    );
+                }
                 ScreenKind::Impact { height }
             }
         };
@@ -45,7 +57,7 @@ impl Builder<'_> {
         Screen { kind, roll: file.roll.to_radians(), look_at: file.look_at }
     }
 
-    fn look_at(&mut self, kind: file::ScreenKind, point: [f64; 3], spacetime: Spacetime, place: Place) {
+    fn look_at(&mut self, kind: file::ScreenKind, point: [f64; 3], spacetime: &Spacetime, place: Place) {
         if kind == file::ScreenKind::Impact {
             self.fault(
                 &["screen.look_at", "screen.kind"],
@@ -55,7 +67,8 @@ impl Builder<'_> {
             return;
         }
         // Falling observers can be wherever there are any; of no place, nothing more is said.
-        let Ok(observer) = Eye::new(spacetime.spin(), place, Motion::Fall) else {
+        let motion = if spacetime.text().is_some() { Motion::ZeroAngularMomentum } else { Motion::Fall };
+        let Ok(observer) = spacetime.observer(place, motion) else {
             return;
         };
         let eye = observer.position();

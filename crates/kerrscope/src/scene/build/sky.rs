@@ -2,12 +2,32 @@
 
 use super::Builder;
 use crate::scene::file::{self, ImageFrame, SKY_USES, SkyKind};
-use crate::scene::valid::{Sky, SkyPicture};
+use crate::scene::valid::{Sky, SkyPicture, Spacetime};
 use crate::sky::{Frame, Orientation};
 
 impl Builder<'_> {
-    pub(super) fn sky(&mut self, file: &file::Sky) -> Sky {
-        self.unused_of_sky(file);
+    /// The sky on the other side of a throat; like this one if nothing is said of it.
+    pub(super) fn other_sky(&mut self, scene: &file::SceneFile, spacetime: &Spacetime) -> Option<Sky> {
+        let file = scene.other_sky.as_ref();
+        if spacetime.has_throat() {
+            return Some(
+                self.sky(file.unwrap_or(&scene.sky), if file.is_some() { "other_sky" } else { "sky" }),
+            );
+        }
+        if file.is_some() {
+            self.fault(
+                &["other_sky", "spacetime.name"],
+                "[other_sky] is that on the other side of a wormhole, and this spacetime has none",
+                "remove it, or choose a `spacetime.name` such as \"ellis\"",
+            );
+        }
+        None
+    }
+
+    /// The sky of a section.
+    pub(super) fn sky(&mut self, file: &file::Sky, section: &str) -> Sky {
+        self.unused_of_sky(file, section);
+        let key = |key: &str| format!("{section}.{key}");
         let color = file.color.unwrap_or_default();
         let picture = match file.kind {
             SkyKind::Black => SkyPicture::Black,
@@ -15,9 +35,9 @@ impl Builder<'_> {
             SkyKind::Gradient => {
                 SkyPicture::Gradient { horizon: color, zenith: file.zenith.unwrap_or_default() }
             }
-            SkyKind::Grid => SkyPicture::Grid { color, spacing: self.spacing(file).to_radians() },
+            SkyKind::Grid => SkyPicture::Grid { color, spacing: self.spacing(file, section).to_radians() },
             SkyKind::Panorama => SkyPicture::Panorama {
-                path: self.picture("sky.image", "sky.kind", "panorama", file.image.as_deref()),
+                path: self.picture(&key("image"), &key("kind"), "panorama", file.image.as_deref()),
                 orientation: orientation(
                     file,
                     match file.image_frame.unwrap_or_default() {
@@ -33,15 +53,15 @@ impl Builder<'_> {
     }
 
     /// What is typed and has no effect.
-    fn unused_of_sky(&mut self, file: &file::Sky) {
+    fn unused_of_sky(&mut self, file: &file::Sky, section: &str) {
         // A sky that is put away keeps its keys; with other kinds they may be a slip.
         if file.kind == SkyKind::Black {
             return;
         }
         for (key, kinds) in SKY_USES {
-            let key = format!("sky.{key}");
+            let key = format!("{section}.{key}");
             if self.root.at(&key).is_some() && !kinds.contains(&file.kind) {
-                self.unused(&key, "sky.kind", kinds);
+                self.unused(&key, &format!("{section}.kind"), kinds);
             }
         }
         if file.kind == SkyKind::Panorama
@@ -49,12 +69,12 @@ impl Builder<'_> {
             && file.frame.is_some()
         {
             let drawn = [ImageFrame::Galactic, ImageFrame::Equatorial];
-            self.unused("sky.frame", "sky.image_frame", &drawn);
+            self.unused(&format!("{section}.frame"), &format!("{section}.image_frame"), &drawn);
         }
     }
 
     /// The angle between the lines of a grid.
-    fn spacing(&mut self, file: &file::Sky) -> f64 {
+    fn spacing(&mut self, file: &file::Sky, section: &str) -> f64 {
         let spacing = file.spacing.unwrap_or_default();
         let lines = 90.0 / spacing;
         if (lines - lines.round()).abs() > 1e-9 * lines {
@@ -64,7 +84,7 @@ impl Builder<'_> {
             let above = (1..=lines.floor() as u32).rev().find(short).unwrap_or(1);
             let [below, above] = [below, above].map(|lines| 90.0 / f64::from(lines));
             self.fault(
-                &["sky.spacing", "sky.kind"],
+                &[&format!("{section}.spacing"), &format!("{section}.kind")],
                 format!("lines {spacing}° apart do not divide 90° into equal parts"),
                 format!("give a divisor of 90 such as {below} or {above}"),
             );

@@ -21,7 +21,7 @@ pub use render::{Camera, Display, Render};
 pub use screen::{Screen, ScreenKind};
 pub(super) use sky::USES as SKY_USES;
 pub use sky::{ImageFrame, Sky, SkyKind};
-pub use spacetime::{Coordinates, Spacetime, SpacetimeName};
+pub use spacetime::{CoordinateKind, Coordinates, Formula, Reversal, Spacetime, SpacetimeName};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -46,6 +46,10 @@ pub struct SceneFile {
     pub object: Vec<Object>,
     /// What is seen where light comes from infinity.
     pub sky: Sky,
+    /// What is seen where light comes from infinity on the other side of a wormhole; as `sky` if not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Sky")]
+    pub other_sky: Option<Sky>,
     /// How finely and how exactly the picture is computed.
     pub render: Render,
     /// How light becomes a picture.
@@ -64,6 +68,7 @@ impl SceneFile {
             disk: self.disk.complete(),
             object: self.object.iter().map(Object::complete).collect(),
             sky: self.sky.complete(),
+            other_sky: self.other_sky.as_ref().map(Sky::complete),
             render: self.render.complete(),
             camera: self.camera.clone(),
         }

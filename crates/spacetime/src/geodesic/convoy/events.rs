@@ -117,7 +117,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
                 (Kind::Crosses | Kind::Grazes, Some(dip)) => self.dip(dip, task),
                 (Kind::Crosses, None) => {
                     // A ray that ends within the horizon has crossed it by then.
-                    if y[0] > 0.0 && (!falls || found.outside >> lane & 1 != 0) {
+                    if y[0] > task.integrator.reversed.edge() && (!falls || found.outside >> lane & 1 != 0) {
                         task.meet(ray, &y, swept);
                     }
                 }
@@ -170,7 +170,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             S::select(leaves, zero, one * c),
         ];
         let whole = S::mask(simd, self.lanes(Kind::Turns));
-        let theta = S::select(whole, one, dense.weighted(&weights).zero());
+        let edge = S::select(leaves, one * flow.metric.edge(), zero);
+        let theta = S::select(whole, one, dense.weighted(&weights).lowered(edge).zero());
         let there = dense.at(theta);
         let depth = flow.inverse_radius(&there);
         found.outside = !S::bits(depth.constant(1.0 / flow.metric.horizon()).less(depth));
@@ -237,7 +238,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         for theta in meetings(|t| height(&dense.at(t)), heights).into_iter().flatten() {
             let y = dense.at(theta);
             let inside = flow.inverse_radius(&y) * flow.metric.horizon() > 1.0;
-            if y[0] > 0.0 && !(falls && inside) {
+            if y[0] > flow.metric.edge() && !(falls && inside) {
                 let sweep = winding::sweep(dense, 1, heading, theta, self.sense(lane));
                 task.meet(ray, &y, self.record.swept[lane] + task.corrections[ray] + sweep);
             }
