@@ -150,7 +150,7 @@ fn tool(root: &Path) -> Result<PathBuf, String> {
     let tool = folder.join("bin").join(format!("cargo-fuzz{}", std::env::consts::EXE_SUFFIX));
     if !tool.exists() {
         let to = folder.to_string_lossy();
-        super::cargo(&["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked", "--root", &to], &[])?;
+        super::cargo(&["install", "cargo-fuzz", "--version", CARGO_FUZZ, "--locked", "--root", &to])?;
     }
     Ok(tool)
 }

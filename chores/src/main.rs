@@ -36,11 +36,10 @@ fn root() -> PathBuf {
 }
 
 /// Runs cargo in the root folder.
-fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
+fn cargo(arguments: &[&str]) -> Result<(), String> {
     eprintln!("$ cargo {}", arguments.join(" "));
     let status = Command::new(env!("CARGO"))
         .args(arguments)
-        .envs(environment.iter().copied())
         .current_dir(root())
         .status()
         .map_err(|e| format!("cargo: {e}"))?;

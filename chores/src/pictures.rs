@@ -28,7 +28,7 @@ pub fn draw(_root: &Path) -> Result<(), String> {
         let mut arguments = vec!["run", "--release", "--locked", "--", "render", "-o", picture];
         arguments.extend(set.iter().flat_map(|set| ["--set", set]));
         arguments.extend(scene);
-        cargo(&arguments, &[])?;
+        cargo(&arguments)?;
     }
     Ok(())
 }

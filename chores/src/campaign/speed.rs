@@ -19,7 +19,7 @@ const SCENE: &str = "scenes/thesis-4.8.toml";
 /// sample is traced. Nothing is required of the speed; interpolated quantities must be within the error asked
 /// for.
 pub fn run(root: &Path) -> Result<(bool, String), String> {
-    super::super::cargo(&["build", "--release", "--locked"], &[])?;
+    super::super::cargo(&["build", "--release", "--locked"])?;
     let program = root.join("target/release").join(format!("kerrscope{}", std::env::consts::EXE_SUFFIX));
     let mut body = format!("Machine: {}.\n\n", machine());
     body += "## Rays\n\n`kerrscope bench`: 640,000 rays around a = 0.99, one thread, CPU time, the median of several passes. \

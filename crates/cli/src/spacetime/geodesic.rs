@@ -58,12 +58,11 @@ pub fn run<G: Geometry<N>, const N: usize>(
     format: Shape,
 ) -> Result<(), Failure> {
     let x = context.regular_point("--from", &arguments.from)?;
-    let kind = match arguments.kind {
-        Some(KindName::Null) => Kind::Null,
-        Some(KindName::Timelike) => Kind::Timelike,
-        Some(KindName::Spacelike) => Kind::Spacelike,
-        None if context.has_time() => Kind::Timelike,
-        None => Kind::Spacelike,
+    let usual = if context.has_time() { KindName::Timelike } else { KindName::Spacelike };
+    let kind = match arguments.kind.unwrap_or(usual) {
+        KindName::Null => Kind::Null,
+        KindName::Timelike => Kind::Timelike,
+        KindName::Spacelike => Kind::Spacelike,
     };
     let mut typed = arguments.velocity.clone();
     if context.has_time() && typed.0.len() + 1 == N {
