@@ -20,7 +20,7 @@ impl Builder<'_> {
     pub(super) fn light_coordinates(
         &mut self,
         scene: &SceneFile,
-        spacetime: Spacetime,
+        spacetime: &Spacetime,
         place: Place,
     ) -> Coordinates {
         let Some(coordinates) = scene.spacetime.chart else { return Coordinates::KerrSchild };

@@ -21,7 +21,7 @@ const MOST: usize = 100_000;
 const FAR: f64 = 2.5;
 
 impl Builder<'_> {
-    pub(super) fn objects(&mut self, all: &[file::Object], spacetime: Spacetime) -> Vec<Object> {
+    pub(super) fn objects(&mut self, all: &[file::Object], spacetime: &Spacetime) -> Vec<Object> {
         if all.len() > MOST {
             let what = format!("there are {} things in the scene, and {MOST} are the most", all.len());
             self.fault(&["object"], what, "leave some out");
@@ -33,7 +33,7 @@ impl Builder<'_> {
             .collect()
     }
 
-    fn object(&mut self, path: &str, file: &file::Object, spacetime: Spacetime) -> Option<Object> {
+    fn object(&mut self, path: &str, file: &file::Object, spacetime: &Spacetime) -> Option<Object> {
         self.unused_of_object(path, file);
         let pattern = self.pattern(path, &file.texture);
         let shape = self.shape(path, file)?;
@@ -161,7 +161,7 @@ impl Builder<'_> {
         path: &str,
         file: &file::Object,
         shape: &Shape,
-        spacetime: Spacetime,
+        spacetime: &Spacetime,
     ) -> Option<Drift> {
         let motion = format!("{path}.motion");
         let place = ["center", "corner"].map(|key| format!("{path}.{key}"));
@@ -233,7 +233,7 @@ impl Builder<'_> {
     }
 
     /// Ω of the circular orbit through a point.
-    fn orbit(&mut self, keys: &[&str], [x, y, z]: [f64; 3], spacetime: Spacetime) -> Option<f64> {
+    fn orbit(&mut self, keys: &[&str], [x, y, z]: [f64; 3], spacetime: &Spacetime) -> Option<f64> {
         let Some(spin) = spacetime.spin() else {
             self.fault(keys, "nothing orbits in flat space", "choose another motion, such as \"static\"");
             return None;
