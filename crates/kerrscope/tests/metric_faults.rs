@@ -45,7 +45,7 @@ const BROKEN: [(&str, &str, &str, &str, &str); 25] = [
     ("2*m/(r + m)", "2m/(r + m)", "m/(r + m)", "an operator is missing", "2*x"),
     ("2*m/(r + m)", "2*m/(r + m", "(r + m\"", "never closed", "close it"),
     ("2*m/(r + m)", "2*m/(R + m)", "R + m", "`R` is not known", "did you mean `r`?"),
-    ("2*m/(r + m)", "2*m/h", "2*m/h", "`h` is defined by itself", "do not use it in turn"),
+    ("2*m/(r + m)", "2*m/h", "\"2*m/h\"", "`h` is defined by itself", "do not use it in turn"),
     ("sqrt(x^2", "squrt(x^2", "squrt", "there is no function `squrt`", "did you mean sqrt?"),
     ("x^2 + y^2", "x^2 + y²", "²", "`²` has no meaning", "x^2"),
     ("x^2 + y^2 + z^2", "x^2, y^2 + z^2", "sqrt(", "sqrt has 1 argument", "sqrt(x)"),

@@ -324,7 +324,7 @@ fn no_fault_follows_from_another() {
                 5,
                 8,
                 "`spacetime.name` cannot be \"minkovski\"",
-                "did you mean \"minkowski\"? Allowed are \"kerr\", \"schwarzschild\" or \"minkowski\"",
+                "did you mean \"minkowski\"? Allowed are \"kerr\", \"schwarzschild\", \"minkowski\", \"text\", \"kerr-text\", \"schwarzschild-text\", \"reissner-nordstrom\", \"kerr-newman\", \"johannsen\", \"ellis\", \"morris-thorne\", \"majumdar-papapetrou\", \"two-kerr\" or \"schwarzschild-de-sitter\"",
             ),
             (
                 7,

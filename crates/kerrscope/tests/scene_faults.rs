@@ -199,7 +199,7 @@ fn misspelt_words() {
                 2,
                 8,
                 "`spacetime.name` cannot be \"Ker\"",
-                "did you mean \"kerr\"? Allowed are \"kerr\", \"schwarzschild\" or \"minkowski\"",
+                "did you mean \"kerr\"? Allowed are \"kerr\", \"schwarzschild\", \"minkowski\", \"text\", \"kerr-text\", \"schwarzschild-text\", \"reissner-nordstrom\", \"kerr-newman\", \"johannsen\", \"ellis\", \"morris-thorne\", \"majumdar-papapetrou\", \"two-kerr\" or \"schwarzschild-de-sitter\"",
             ),
             (
                 4,

@@ -132,7 +132,7 @@ fn misspelt_and_misplaced() {
     assert_faults(
         "radius = 1\n[object]\ncenter = [9, 0, 0]\n",
         &[
-            (1, 1, "`radius` is not in a section", "`radius` belongs in [[object]]"),
+            (1, 1, "`radius` is not in a section", "`radius` belongs in [[object]] or [spacetime]"),
             (
                 2,
                 2,

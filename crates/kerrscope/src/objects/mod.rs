@@ -19,7 +19,6 @@ pub use sphere::Sphere;
 pub use world::World;
 
 use crate::spacetime::geodesic::Line;
-use crate::spacetime::observer::{Drift, clearance};
 use crate::spacetime::tensor::{Vec3, dot};
 use piece::Piece;
 
@@ -86,10 +85,14 @@ impl Shape {
         }
     }
 
-    /// The point of the surface where [`clearance`] is least, and it: where matter that moves so can be least of all, around
-    /// a hole of spin a (`None`: in flat space).
-    pub fn tightest(&self, spin: Option<f64>, drift: Drift) -> (Vec3<f64>, f64) {
-        let least = |at| clearance(spin, self.point(at), drift);
+    /// The point of the surface where a clearance is least, and it: where matter can be least of all. It is sought next to
+    /// the hole at the origin; of what turns as one (`turning`), which may be too fast far from it, everywhere. Clearance
+    /// that is not a number is the least.
+    pub fn tightest(&self, clearance: impl Fn(Vec3<f64>) -> f64, turning: bool) -> (Vec3<f64>, f64) {
+        let least = |at| {
+            let clearance = clearance(self.point(at));
+            if clearance.is_nan() { f64::NEG_INFINITY } else { clearance }
+        };
         let square = |at| {
             let x = self.point(at);
             dot(&x, &x)
@@ -98,7 +101,7 @@ impl Shape {
         let (nearest, _) = lowest(&square, [0.5; 2], 0.5, 8);
         let size = self.bounds().edges().into_iter().fold(0.0, f64::max);
         let mut best = lowest(&least, nearest, (NEIGHBOURHOOD / size).min(0.5), 24);
-        if let Drift::Turning(_) = drift {
+        if turning {
             let other = lowest(&least, [0.5; 2], 0.5, 8);
             best = if other.1 < best.1 { other } else { best };
         }

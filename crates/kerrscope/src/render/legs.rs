@@ -23,9 +23,10 @@ use crate::light::Light;
 use crate::material::{Finish, Material, lambert};
 use crate::objects::World;
 use crate::random::Stream;
+use crate::scene::Spacetime;
 use crate::sky::{Sky, towards};
 use crate::spacetime::geodesic::{Fate, Hit, Line, ObstacleTracer, Path, Query, Ray, Side};
-use crate::spacetime::observer::{Drift, Patch};
+use crate::spacetime::observer::Drift;
 use crate::spacetime::tensor::{Vec3, dot};
 
 /// Things, and how their light is followed.
@@ -33,7 +34,7 @@ pub(super) struct Legs {
     pub(super) world: World,
     pub(super) surfaces: Vec<Surface>,
     pub(super) tracer: Box<dyn ObstacleTracer>,
-    pub(super) spin: Option<f64>,
+    pub(super) spacetime: Spacetime,
     pub(super) bounces: u32,
     pub(super) shifts: bool,
     pub(super) seed: u64,
@@ -52,6 +53,8 @@ pub(super) struct Surface {
 pub(super) struct Around<'a> {
     pub(super) disk: Option<&'a Disk>,
     pub(super) sky: &'a Sky,
+    /// That on the other side of a wormhole.
+    pub(super) other_sky: &'a Sky,
     /// What to ask along each leg.
     pub(super) query: &'a Query,
     /// Angle on the sky that the camera's own ray stands for.
@@ -115,7 +118,7 @@ impl Legs {
         path: &mut Path,
         tally: &mut Tally,
     ) -> Light {
-        if self.spin.is_none() && around.disk.is_none() && ray.start.w > 0.0 {
+        if self.spacetime.is_flat() && around.disk.is_none() && ray.start.w > 0.0 {
             return self.straight(ray, around, random, tally);
         }
         let (mut ray, mut angle) = (*ray, around.angle);
@@ -134,7 +137,8 @@ impl Legs {
             if let Some([theta, phi]) = path.direction {
                 // The sky's light has there the frequency 1/g.
                 let energy = if ray.side == Side::Reversed { ray.energy } else { -ray.energy };
-                let light = around.sky.radiance(towards(theta, phi), angle);
+                let sky = if path.other_side { around.other_sky } else { around.sky };
+                let light = sky.radiance(towards(theta, phi), angle);
                 gathered.add(light * self.dimming(energy));
             }
             let Some(hit) = &path.hit else { break };
@@ -155,7 +159,7 @@ impl Legs {
         let surface = &self.surfaces[hit.object];
         let shape = self.world.shape(hit.object);
         let [place, normal] = shape.settle(&hit.position);
-        let patch = Patch::new(self.spin, place, normal, surface.drift)?;
+        let patch = self.spacetime.patch(place, normal, surface.drift)?;
         let (frequency, direction) = patch.measure(hit.energy, &hit.momentum);
         let color = surface.color(shape, &place);
         gathered.dim([self.dimming(frequency); 3]);

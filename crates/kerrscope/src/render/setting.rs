@@ -53,7 +53,7 @@ pub(super) fn legs(scene: &Scene) -> Result<Option<Legs>, TextureError> {
         world: world(scene),
         surfaces,
         tracer: obstacle_tracer(scene),
-        spin: scene.spacetime.spin(),
+        spacetime: scene.spacetime.clone(),
         bounces: scene.render.bounces,
         shifts: scene.render.shifts,
         seed: scene.render.seed,

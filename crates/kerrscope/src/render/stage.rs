@@ -272,7 +272,13 @@ impl Stage {
         if replay.paths.is_empty() {
             replay.paths.push(Path::default());
         }
-        let around = Around { disk: self.disk.as_ref(), sky: &self.sky, query: &self.query, angle };
+        let around = Around {
+            disk: self.disk.as_ref(),
+            sky: &self.sky,
+            other_sky: &self.other_sky,
+            query: &self.query,
+            angle,
+        };
         legs.light(&ray, &around, random, &mut replay.paths[0], tally)
     }
 

@@ -3,15 +3,16 @@
 use crate::scene::{Coordinates, Engine, Method, Scene, Spacetime};
 use crate::spacetime::Level;
 use crate::spacetime::closed::{ClosedForm, NODES};
-use crate::spacetime::geodesic::{Integrator, ObstacleTracer, Scheme, SphericalIntegrator, Straight, TextTracer, Tracer};
-use crate::spacetime::metric::Kerr;
+use crate::spacetime::geodesic::{
+    Integrator, ObstacleTracer, Scheme, SphericalIntegrator, Straight, TextTracer, Tracer,
+};
+use crate::spacetime::metric::{Kerr, LineElement};
 use std::sync::Arc;
 
 /// The tracer that a scene asks for, with the instructions of a level.
 pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
     if let Spacetime::Text(element) = &scene.spacetime {
-        let steps = scene.render.max_steps as usize;
-        return Box::new(TextTracer::new(Arc::clone(element), scheme(scene), steps).with_level(level));
+        return Box::new(text(scene, element).with_level(level));
     }
     match (scene.spacetime.spin(), scene.render.engine) {
         (None, _) => Box::new(Straight),
@@ -27,10 +28,15 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
 
 /// The tracer of a scene whose rays meet things. It follows them one by one.
 pub fn obstacle_tracer(scene: &Scene) -> Box<dyn ObstacleTracer> {
-    match scene.spacetime.spin() {
-        None => Box::new(Straight),
-        Some(spin) => integrator(scene, spin).boxed(),
+    match (&scene.spacetime, scene.spacetime.spin()) {
+        (Spacetime::Text(element), _) => Box::new(text(scene, element)),
+        (_, None) => Box::new(Straight),
+        (_, Some(spin)) => integrator(scene, spin).boxed(),
     }
+}
+
+fn text(scene: &Scene, element: &Arc<LineElement>) -> TextTracer {
+    TextTracer::new(Arc::clone(element), scheme(scene), scene.render.max_steps as usize)
 }
 
 fn integrator(scene: &Scene, spin: f64) -> Integrator<Kerr> {

@@ -208,7 +208,7 @@ fn similar<'w>(typed: &str, words: impl Iterator<Item = &'w str>) -> Option<&'w 
             let likeness = strsim::normalized_damerau_levenshtein(&typed, word);
             // `dist` for `distance`.
             let begun = typed.len() >= 3 && word.starts_with(&typed);
-            (if begun { 1.0 } else { likeness }, word)
+            (if begun { 1.0 + likeness } else { likeness }, word)
         })
         .filter(|(likeness, _)| *likeness >= 0.6)
         .max_by(|a, b| a.0.total_cmp(&b.0))

@@ -12,7 +12,9 @@ use crate::render::Film;
 use crate::render::Layer;
 use crate::sky::Orientation;
 use kerrscope_spacetime::metric::{LineElement, Text};
-use kerrscope_spacetime::observer::{Drift, Motion, Observer as Eye, ObserverError, Place};
+use kerrscope_spacetime::observer::{
+    Drift, Motion, Observer as Eye, ObserverError, Patch, Place, clearance, clearance_in_metric,
+};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -61,6 +63,27 @@ impl Spacetime {
             Self::Text(element) => Eye::in_metric(&Text::new(element), place, motion),
             _ => Eye::new(self.spin(), place, motion),
         }
+    }
+
+    /// A piece of a surface in it, as [`Patch`] has it.
+    pub fn patch(&self, position: [f64; 3], gradient: [f64; 3], drift: Drift) -> Option<Patch> {
+        match self {
+            Self::Text(element) => Patch::in_metric(&Text::new(element), position, gradient, drift),
+            _ => Patch::new(self.spin(), position, gradient, drift),
+        }
+    }
+
+    /// Positive where matter can move so, as [`clearance`] has it; NaN where a text has no value.
+    pub fn clearance(&self, position: [f64; 3], drift: Drift) -> f64 {
+        match self {
+            Self::Text(element) => clearance_in_metric(&Text::new(element), position, drift),
+            _ => clearance(self.spin(), position, drift),
+        }
+    }
+
+    /// Whether it is flat.
+    pub fn is_flat(&self) -> bool {
+        *self == Self::Minkowski
     }
 }
 

@@ -30,9 +30,9 @@ pub use ray::{Ray, Side};
 pub use segment::{Curve, Line, Segment};
 pub use spherical::SphericalIntegrator;
 pub use straight::Straight;
-pub(crate) use walk::growth;
 #[cfg(not(test))]
 pub use text::TextTracer;
+pub(crate) use walk::growth;
 
 use crate::tensor::Vec3;
 

@@ -1,6 +1,6 @@
 //! Rays in a metric that somebody wrote.
 
-use super::{Integrator, Path, Query, Ray, Scheme, Tracer};
+use super::{Integrator, ObstacleTracer, Obstacles, Path, Query, Ray, Scheme, Tracer};
 use crate::lanes::Level;
 use crate::metric::{LineElement, Text};
 use std::sync::Arc;
@@ -44,5 +44,13 @@ impl Tracer for TextTracer {
     #[inline(never)]
     fn trace_all(&self, rays: &[Ray], query: &Query, paths: &mut [Path]) {
         self.integrator().trace_all(rays, query, paths);
+    }
+}
+
+impl ObstacleTracer for TextTracer {
+    /// Behind a throat nothing is met: things stand on this side.
+    #[inline(never)]
+    fn trace_among(&self, ray: &Ray, query: &Query, obstacles: &dyn Obstacles, path: &mut Path) {
+        self.integrator().trace_among(ray, query, obstacles, path);
     }
 }

@@ -8,7 +8,7 @@ mod tetrad;
 
 pub use impact::impact_ray;
 pub use motion::{Motion, ObserverError, Place, check};
-pub use patch::{Drift, Patch, clearance};
+pub use patch::{Drift, Patch, clearance, clearance_in_metric};
 pub use tetrad::Observer;
 
 use std::f64::consts::{FRAC_PI_2, PI};

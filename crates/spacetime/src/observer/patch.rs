@@ -3,7 +3,7 @@
 use super::site::{Site, normed, without};
 use crate::geodesic::{Ray, Side};
 use crate::metric::{Kerr, Metric, Minkowski};
-use crate::tensor::{Tensor, Vec3, Vec4, contract, pair, product};
+use crate::tensor::{Tensor, Vec3, Vec4, contract, dot, pair, product};
 
 /// How the matter of a surface moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,6 +51,17 @@ impl Patch {
             None => Self::build(&Minkowski, 0.0, position, gradient, drift),
             Some(a) => Self::build(&Kerr::new(-a), -a, position, gradient, drift),
         }
+    }
+
+    /// As [`new`](Self::new) in any metric, as it is (not reversed): places are those of its own chart reversed in time,
+    /// [`Metric::reversed`]. The axes of a [`Drift::Velocity`] are those of spherical coordinates around the origin.
+    pub fn in_metric<M: Metric>(
+        metric: &M,
+        position: Vec3<f64>,
+        gradient: Vec3<f64>,
+        drift: Drift,
+    ) -> Option<Self> {
+        Self::build(&metric.reversed(), 0.0, position, gradient, drift)
     }
 
     fn build<M: Metric>(
@@ -137,8 +148,19 @@ pub fn clearance(spin: Option<f64>, position: Vec3<f64>, drift: Drift) -> f64 {
     }
 }
 
+/// As [`clearance`] in any metric, as it is; NaN where it has no value.
+pub fn clearance_in_metric<M: Metric>(metric: &M, position: Vec3<f64>, drift: Drift) -> f64 {
+    clearance_in(&metric.reversed(), position, drift)
+}
+
 fn clearance_in<M: Metric>(metric: &M, position: Vec3<f64>, drift: Drift) -> f64 {
-    let outside = metric.radius(&position) - metric.horizon();
+    let distance = dot(&position, &position).sqrt();
+    let depth = if distance > 0.0 {
+        metric.inverse_depth(distance.recip(), &position.map(|c| c / distance))
+    } else {
+        f64::INFINITY
+    };
+    let outside = depth.recip() - metric.horizon();
     let rate = match drift {
         Drift::Static => 0.0,
         Drift::Turning(rate) => -rate,

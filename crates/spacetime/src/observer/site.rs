@@ -1,7 +1,7 @@
 //! A place in a chart, and four-velocities of what moves there.
 
 use crate::dual::Dual;
-use crate::metric::Metric;
+use crate::metric::{Kerr, Metric};
 use crate::tensor::{Tensor, Vec3, Vec4, contract, product};
 
 /// A place in Cartesian Kerr–Schild coordinates with spin s, and the coordinate directions there.
@@ -37,9 +37,9 @@ impl Site {
         Self::with(metric, spin, r, (sin, cos), [cos_azimuth, sin_azimuth], position)
     }
 
-    /// That of a point of the chart.
+    /// That of a point of the chart. Whatever the metric calls its radius, r is that of the coordinates (r, θ).
     pub(super) fn at<M: Metric>(metric: &M, spin: f64, position: Vec3<f64>) -> Self {
-        let r = metric.radius(&position);
+        let r = Kerr::new(spin).radius(&position);
         let [x, y, z] = position;
         let away = x.hypot(y);
         let azimuth = if away > 0.0 { [x / away, y / away] } else { [1.0, 0.0] };

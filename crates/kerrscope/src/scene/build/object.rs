@@ -184,16 +184,35 @@ impl Builder<'_> {
                 Drift::Turning(self.orbit(&keys, shape.bounds().middle(), spacetime)?)
             }
         };
-        let Some(spin) = spacetime.spin() else { return Some(drift) };
+        let at_any_speed = |x| spacetime.clearance(x, Drift::Velocity([0.0; 3]));
+        let as_it_moves = |x| spacetime.clearance(x, drift);
+        let turning = matches!(drift, Drift::Turning(_));
+        let Some(spin) = spacetime.spin() else {
+            if spacetime.is_flat() {
+                return Some(drift);
+            }
+            let (a, outside) = shape.tightest(at_any_speed, false);
+            let (b, slow) = shape.tightest(as_it_moves, turning);
+            if outside > 0.0 && slow > 0.0 {
+                return Some(drift);
+            }
+            let [x, y, z] = if outside > 0.0 { b } else { a };
+            self.fault(
+                &keys[1..],
+                format!("no matter can be at [{x:.3}, {y:.3}, {z:.3}] and move so: the metric has no value there, light does not come from there, or it would be as fast as light"),
+                "move the thing outwards, make it smaller, or give it another motion",
+            );
+            return None;
+        };
         let bounds = shape.bounds();
         let near = bounds.nearest() < FAR;
-        if !near && !matches!(drift, Drift::Turning(_)) {
+        if !near && !turning {
             return Some(drift);
         }
         let keys = &keys[1..];
         let horizon = horizons(spin).0;
         // How far from the hole it is, by the clearance of what moves with any velocity: r − r₊.
-        let (point, height) = shape.tightest(Some(spin), Drift::Velocity([0.0; 3]));
+        let (point, height) = shape.tightest(at_any_speed, false);
         let limit = EXIT * horizon;
         if near && height + horizon <= limit {
             let at = readable(height + horizon);
@@ -207,7 +226,7 @@ impl Builder<'_> {
         }
         let (point, clearance) = match drift {
             Drift::Velocity(_) => (point, height),
-            _ => shape.tightest(Some(spin), drift),
+            _ => shape.tightest(as_it_moves, turning),
         };
         if clearance > 0.0 {
             return Some(drift);
@@ -235,7 +254,12 @@ impl Builder<'_> {
     /// Ω of the circular orbit through a point.
     fn orbit(&mut self, keys: &[&str], [x, y, z]: [f64; 3], spacetime: &Spacetime) -> Option<f64> {
         let Some(spin) = spacetime.spin() else {
-            self.fault(keys, "nothing orbits in flat space", "choose another motion, such as \"static\"");
+            let what = if spacetime.is_flat() {
+                "nothing orbits in flat space"
+            } else {
+                "orbits of things are known around Kerr holes only, and this spacetime is a metric of its own"
+            };
+            self.fault(keys, what, "choose another motion, such as \"static\"");
             return None;
         };
         let r = Kerr::new(spin).radius(&[x, y, z]);

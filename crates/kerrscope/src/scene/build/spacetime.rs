@@ -22,25 +22,23 @@ impl Builder<'_> {
     /// The spacetime, and the keys that say all of it without another file.
     pub(super) fn spacetime(&mut self, file: &file::Spacetime) -> (Spacetime, file::Spacetime) {
         let spin = file.spin.unwrap_or_default();
-        let (hole, spacetime) = match file.name {
-            SpacetimeName::Kerr => {
-                self.unused_of_text(file);
-                return (Spacetime::Kerr { spin }, file.clone());
-            }
+        let spacetime = match file.name {
+            SpacetimeName::Kerr => Spacetime::Kerr { spin },
             SpacetimeName::Schwarzschild => {
-                ("a Schwarzschild black hole does not turn", Spacetime::Schwarzschild)
+                if spin != 0.0 {
+                    self.fault(
+                        &SPACETIME,
+                        format!("a Schwarzschild black hole does not turn: its spin cannot be {spin}"),
+                        "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
+                    );
+                }
+                Spacetime::Schwarzschild
             }
-            SpacetimeName::Minkowski => ("flat space does not turn", Spacetime::Minkowski),
+            // A scene's hole is put away, and its spin with it, to see the rest without it.
+            SpacetimeName::Minkowski => Spacetime::Minkowski,
             _ => return self.text(file),
         };
         self.unused_of_text(file);
-        if spin != 0.0 {
-            self.fault(
-                &SPACETIME,
-                format!("{hole}: its spin cannot be {spin}"),
-                "remove `spacetime.spin`, or choose `spacetime.name = \"kerr\"`",
-            );
-        }
         (spacetime, file.clone())
     }
 
