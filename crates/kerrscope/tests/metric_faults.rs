@@ -52,7 +52,7 @@ const BROKEN: [(&str, &str, &str, &str, &str); 25] = [
     ("\"h - 1\"", "\"h - \"", "\"", "a value is missing", "write a number"),
     ("\"h - 1\"", "\"\"", "\"\"", "the formula is empty", "write a number"),
     ("\"h - 1\"", "\"h/0 - 1\"", "0 - 1", "divides by zero", "correct the divisor"),
-    ("tt = ", "ta = ", "ta = ", "`ta` is no component", "write tt or t_t"),
+    ("tt = ", "ta = ", "ta = ", "`ta` is no component", "write tt or t_x"),
     ("yy = ", "x_x = ", "xx = ", "given twice", "keep one"),
     ("zz = \"1 + h\"", "", "metric", "lacks its component `zz`", "give every component"),
     ("horizon = \"2*m\"", "horizon = \"2*r\"", "2*r", "cannot depend on coordinates", "depth"),

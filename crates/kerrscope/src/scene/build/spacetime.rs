@@ -60,6 +60,13 @@ impl Builder<'_> {
                 "set `spacetime.parameters.spin` if it has that parameter",
             );
         }
+        // A name that was taken out for its value is not one that the formulas made up.
+        let named = ["spacetime.coordinates", "spacetime.parameters", "spacetime.let"];
+        let doubtful = self.removed.iter().any(|key| named.iter().any(|name| key.starts_with(name)));
+        if doubtful {
+            self.removed.push("spacetime".to_owned());
+            return (Spacetime::Minkowski, file.clone());
+        }
         let element = self.typed(file).and_then(|typed| Some((self.element(file.name, &typed)?, typed.keys)));
         let shown = |keys: file::Spacetime| match file.name.metric() {
             // Its name and its numbers say all of it.
@@ -154,7 +161,7 @@ impl Builder<'_> {
         let keys = &typed.keys;
         if keys.coordinates.is_none() || keys.metric.is_empty() {
             self.fault(
-                &["spacetime.name"],
+                &["spacetime.name", "spacetime.coordinates", "spacetime.metric"],
                 "`spacetime.name = \"text\"` needs `coordinates` and `metric`",
                 "give them, or give `spacetime.file` the path of a file that does",
             );
