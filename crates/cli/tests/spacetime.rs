@@ -176,3 +176,46 @@ fn wrong_inputs() {
         assert!(errors.contains(said), "{words}: {errors}");
     }
 }
+
+/// Metrics as text: by name, from a file of their own, from a scene, and one that depends on time.
+#[test]
+fn metrics_as_text() {
+    // Two holes side by side are no vacuum, but the less so the farther apart they are; one alone is.
+    let ricci = |set: &str| {
+        let found = here(&format!("two-kerr curvature --at 0,0,3,0 {set}"));
+        let all = found["ricci"].as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap());
+        all.map(|c| c.as_f64().unwrap().abs()).fold(0.0, f64::max)
+    };
+    assert!(ricci("--set mass2=0 --set spin2=0") < 1e-14);
+    let [close, apart] = ["--set separation=10", "--set separation=100"].map(ricci);
+    assert!(close > 1e-3 && apart < 1e-2 * close, "{close} {apart}");
+
+    let folder = tempfile::tempdir().unwrap();
+    let metric = "coordinates = [\"t\", \"x\", \"y\", \"z\"]\nparameters = { h = 0.1 }\nlet = { a2 = \"exp(2*h*t)\" }\n\
+                  metric = { tt = -1, xx = \"a2\", yy = \"a2\", zz = \"a2\" }\n";
+    std::fs::write(folder.path().join("growing.toml"), metric).unwrap();
+    let sitter = folder.path().join("growing.toml").display().to_string();
+    // De Sitter's universe: R = 12 h².
+    let found = here(&format!("{sitter} curvature --at 3,1,2,0 --set h=0.2"));
+    near(&found["ricci_scalar"], 0.48, 1e-13);
+    assert_eq!(found["geometry"], "growing");
+
+    let scene = folder.path().join("scene.toml");
+    let keys =
+        metric.replace("exp(2*h*t)", "1 + h/r").replace("let = {", "let = { r = \"sqrt(x^2 + y^2 + z^2)\",");
+    std::fs::write(&scene, format!("render.width = 9\n[spacetime]\nname = \"text\"\n{keys}")).unwrap();
+    let found = here(&format!("{} metric --at 0,2,0,0", scene.display()));
+    near(&found["metric"][1][1], 1.05, 1e-15);
+
+    for (words, said) in [
+        ("kerr-newman --set charg=0.1", "has no parameter `charg`"),
+        ("nowhere.toml check", "there is no such file"),
+        ("two-kers check", "two-kerr"),
+    ] {
+        let arguments: Vec<&str> = ["spacetime"].into_iter().chain(words.split(' ')).collect();
+        let output = run(Path::new("."), &arguments);
+        assert_eq!(output.status.code(), Some(2));
+        let stderr = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(stderr.contains(said), "{stderr}");
+    }
+}

@@ -4,6 +4,7 @@ use super::Context;
 use super::numbers::show;
 use crate::report::Failure;
 use crate::{Format, print, print_json};
+use kerrscope::scene::known_metrics;
 use kerrscope::spacetime::geometry::{Coordinate, Geometry, catalogue};
 use serde_json::json;
 
@@ -27,7 +28,8 @@ pub fn list(format: Format) -> Result<(), Failure> {
         let tail = if parameters.is_empty() { String::new() } else { format!("; {}", parameters.join(", ")) };
         format!("{:<20} {}{tail}", entry.name, entry.about)
     });
-    print(&lines.collect::<Vec<_>>().join("\n"))
+    let texts = known_metrics().collect::<Vec<_>>().join(", ");
+    print(&format!("{}\nas text: {texts}", lines.collect::<Vec<_>>().join("\n")))
 }
 
 /// "theta from 0 to 3.14"

@@ -10,8 +10,13 @@ mod point;
 
 use crate::Format;
 use crate::report::Failure;
-use kerrscope::spacetime::geometry::{BuiltIn, Coordinate, Geometry, Nature};
+use kerrscope::scene::{known_metric, known_metrics, metric_from_file};
+use kerrscope::spacetime::geometry::{
+    BuiltIn, CatalogueError, Coordinate, Geometry, Nature, Written, catalogue,
+};
 use numbers::{Numbers, parse_numbers};
+use std::path::Path;
+use std::sync::Arc;
 
 /// Metric, connection, curvature, geodesics and lengths of a geometry of two, three or four dimensions. All is
 /// computed with numbers, exact derivatives included: nothing is printed as a formula. Coordinates are given in
@@ -26,10 +31,13 @@ use numbers::{Numbers, parse_numbers};
     kerrscope spacetime kerr geodesic --from 0,8,70deg,0 --velocity 0,0.03,0.04 --kind timelike --length 2000 --format csv\n  \
     kerrscope spacetime sphere between --from 40deg,0 --to 60deg,100deg\n  \
     kerrscope spacetime sphere length --through pi/2,0 --through pi/2,2pi\n  \
-    kerrscope spacetime ellis check")]
+    kerrscope spacetime ellis check\n  \
+    kerrscope spacetime two-kerr curvature --at 0,0,0,3\n  \
+    kerrscope spacetime metric.toml check")]
 pub struct Arguments {
     /// Geometry: polar, sphere, stereographic-north, stereographic-south, spherical, three-sphere, minkowski,
-    /// schwarzschild, kerr (Boyer-Lindquist), kerr-schild or ellis
+    /// schwarzschild, kerr (Boyer-Lindquist), kerr-schild or ellis; a metric that is known as text, such as kerr-newman or
+    /// two-kerr; or a file with one, its own or a scene (metric.toml)
     name: Option<String>,
     /// Give a parameter a value; may be given several times
     #[arg(long, value_name = "NAME=VALUE", value_parser = parse_parameter, allow_hyphen_values = true, global = true)]
@@ -166,8 +174,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         return describe::list(arguments.format.of_numbers()?);
     };
+    let path = Path::new(name);
+    let written = if path.extension().is_some() || path.components().count() > 1 {
+        Some(metric_from_file(path, &arguments.set)?)
+    } else if catalogue().iter().any(|entry| entry.name == name) {
+        None
+    } else {
+        known_metric(name, &arguments.set).transpose()?
+    };
+    if let Some(element) = written {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        return act(&Written { element: Arc::new(element), name }, arguments);
+    }
     let geometry = BuiltIn::named(name, &arguments.set).map_err(|errors| {
-        Failure::Input(errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\nerror: "))
+        let known = known_metrics().collect::<Vec<_>>().join(", ");
+        let text = |error: &CatalogueError| match error {
+            CatalogueError::Name(_) => format!("{error}; as text {known}; or a file such as metric.toml"),
+            _ => error.to_string(),
+        };
+        Failure::Input(errors.iter().map(text).collect::<Vec<_>>().join("\nerror: "))
     })?;
     match geometry {
         BuiltIn::Surface(g) => act(&g, arguments),

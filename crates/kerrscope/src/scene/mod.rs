@@ -34,6 +34,7 @@ mod build;
 mod check;
 mod fault;
 pub mod file;
+mod metric;
 mod overrides;
 mod read;
 mod scan;
@@ -45,6 +46,7 @@ use std::path::Path;
 
 pub use fault::{Fault, Faults, Source};
 pub use file::{Coordinates, SceneFile};
+pub use metric::{known_metric, known_metrics, metric_from_file};
 pub use valid::{
     Disk, Display, Engine, Method, Object, ObjectPattern, Observer, Render, Screen, ScreenKind, Sky,
     SkyPicture, Spacetime, Surface,

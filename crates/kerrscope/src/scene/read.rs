@@ -33,6 +33,16 @@ pub(super) fn metric(source: &Arc<Source>, faults: &mut Collector) -> Option<(Sp
     (complete && faults.len() == before).then_some((keys, root))
 }
 
+/// Reads the spacetime of a scene, and where its keys stand.
+pub(super) fn spacetime(
+    source: Result<Arc<Source>, Fault>,
+    overrides: &[String],
+    faults: &mut Collector,
+) -> (Spacetime, Node) {
+    let Typed { file, root, .. } = type_in(source, overrides, faults);
+    (file.spacetime, root)
+}
+
 /// Reads a scene.
 pub(super) fn scene(
     source: Result<Arc<Source>, Fault>,

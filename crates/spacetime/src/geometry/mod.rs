@@ -14,7 +14,7 @@
 //! R^ρ_{σμν} = ∂_μ Γ^ρ_{νσ} − …, R_{σν} = R^ρ_{σρν}, so that a sphere's Ricci scalar is positive.
 //!
 //! This is the workshop for one geodesic at a time in any coordinates. Pictures are made of a [`crate::metric::Metric`], which is
-//! Cartesian and knows infinity; [`Cartesian`] makes a geometry of one.
+//! Cartesian and knows infinity; [`Cartesian`] makes a geometry of one, and [`Written`] of a text.
 //!
 //! ```
 //! use kerrscope_spacetime::geometry::{BoyerLindquist, Curvature, connection};
@@ -43,6 +43,7 @@ mod schwarzschild;
 mod sphere;
 mod trajectory;
 mod velocity;
+mod written;
 
 #[cfg(test)]
 mod tests;
@@ -63,6 +64,7 @@ pub use schwarzschild::Schwarzschild;
 pub use sphere::{Pole, Sphere, Stereographic, ThreeSphere};
 pub use trajectory::{End, Options, Place, Point, Trajectory, conserved};
 pub use velocity::{Kind, VelocityError, velocity};
+pub use written::Written;
 
 use crate::scalar::Scalar;
 

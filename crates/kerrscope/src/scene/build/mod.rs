@@ -13,6 +13,7 @@ mod spacetime;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use kerrscope_spacetime::metric::LineElement;
 use kerrscope_spacetime::observer::Place;
 use serde::Serialize;
 
@@ -58,6 +59,16 @@ pub(super) fn build(
         spacetime,
         file,
     }
+}
+
+/// Compiles a metric as text; what is wrong with it is reported.
+pub(super) fn line_element(
+    keys: &file::Spacetime,
+    root: &Node,
+    folder: &Path,
+    faults: &mut Collector,
+) -> Option<LineElement> {
+    Builder { root, removed: Vec::new(), folder, faults }.line_element(keys)
 }
 
 struct Builder<'a> {

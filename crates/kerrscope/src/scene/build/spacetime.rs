@@ -42,6 +42,12 @@ impl Builder<'_> {
         (spacetime, file.clone())
     }
 
+    /// The metric of these keys, be it one in which light can be followed or not.
+    pub(super) fn line_element(&mut self, keys: &file::Spacetime) -> Option<LineElement> {
+        let typed = self.typed(keys)?;
+        self.compiled(keys.name, &typed)
+    }
+
     /// Keys of a text that a spacetime which is none takes no notice of.
     fn unused_of_text(&mut self, file: &file::Spacetime) {
         for key in text_keys(file) {
@@ -156,8 +162,8 @@ impl Builder<'_> {
         }
     }
 
-    /// A text compiled and checked.
-    fn element(&mut self, name: SpacetimeName, typed: &Typed) -> Option<LineElement> {
+    /// A text compiled.
+    fn compiled(&mut self, name: SpacetimeName, typed: &Typed) -> Option<LineElement> {
         let keys = &typed.keys;
         if keys.coordinates.is_none() || keys.metric.is_empty() {
             self.fault(
@@ -169,8 +175,8 @@ impl Builder<'_> {
         }
         let definition = definition(keys);
         let shipped = name.metric().is_some();
-        let element = match LineElement::compile(&definition) {
-            Ok(element) => element,
+        match LineElement::compile(&definition) {
+            Ok(element) => Some(element),
             Err(wrong) => {
                 for DefinitionFault { part, fault } in wrong {
                     if shipped {
@@ -181,14 +187,20 @@ impl Builder<'_> {
                         self.faults.push(&place, || (fault.message, fault.help));
                     }
                 }
-                return None;
+                None
             }
-        };
+        }
+    }
+
+    /// A text in which light can be followed.
+    fn element(&mut self, name: SpacetimeName, typed: &Typed) -> Option<LineElement> {
+        let element = self.compiled(name, typed)?;
+        let shipped = name.metric().is_some();
         let mut refuse = |what: String, mend: &str| {
             if shipped || typed.node.at("metric").is_none() {
                 self.fault(&["spacetime.parameters", "spacetime.name"], what, mend);
             } else {
-                let place = place(&typed.node, keys, Part::Whole, 0..0);
+                let place = place(&typed.node, &typed.keys, Part::Whole, 0..0);
                 self.faults.push(&place, || (what, mend.to_owned()));
             }
             None

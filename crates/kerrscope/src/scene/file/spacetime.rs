@@ -167,6 +167,24 @@ pub enum SpacetimeName {
 }
 
 impl SpacetimeName {
+    /// All of them.
+    pub const ALL: [Self; 14] = [
+        Self::Kerr,
+        Self::Schwarzschild,
+        Self::Minkowski,
+        Self::Text,
+        Self::KerrText,
+        Self::SchwarzschildText,
+        Self::ReissnerNordstrom,
+        Self::KerrNewman,
+        Self::Johannsen,
+        Self::Ellis,
+        Self::MorrisThorne,
+        Self::MajumdarPapapetrou,
+        Self::TwoKerr,
+        Self::SchwarzschildDeSitter,
+    ];
+
     /// The text of a metric that is known as text by its name.
     pub fn metric(self) -> Option<(&'static str, &'static str)> {
         macro_rules! shipped {

@@ -50,6 +50,9 @@ pub struct LineElement {
     reversal: Reversal,
     stationary: bool,
     axisymmetric: bool,
+    coordinates: [String; 4],
+    kind: Kind,
+    parameters: Vec<(String, f64)>,
 }
 
 impl LineElement {
@@ -115,6 +118,9 @@ impl LineElement {
             reversal: definition.reversal,
             stationary,
             axisymmetric: false,
+            coordinates: definition.coordinates.clone(),
+            kind: definition.kind,
+            parameters: definition.parameters.clone(),
         };
         element.axisymmetric = super::check::is_axisymmetric(&element);
         if element.reversal == Reversal::Mirror && !element.axisymmetric {
@@ -124,6 +130,21 @@ impl LineElement {
             return Err(vec![DefinitionFault::whole(Part::Reversal, what, mend)]);
         }
         Ok(element)
+    }
+
+    /// Names of the coordinates that it was written in.
+    pub fn coordinates(&self) -> &[String; 4] {
+        &self.coordinates
+    }
+
+    /// What these are like.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
+    /// Its parameters with their values.
+    pub fn parameters(&self) -> &[(String, f64)] {
+        &self.parameters
     }
 
     /// Whether nothing depends on time.
