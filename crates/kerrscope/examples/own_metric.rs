@@ -7,7 +7,7 @@
 use kerrscope::render::{Stage, Watch, draw};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Scalar;
-use kerrscope::spacetime::geodesic::{Integrator, Scheme};
+use kerrscope::spacetime::geodesic::Scheme;
 use kerrscope::spacetime::geometry::{Cartesian, check};
 use kerrscope::spacetime::metric::Metric;
 use kerrscope::spacetime::tensor::{Tensor, Vec3, dot, each};
@@ -51,8 +51,8 @@ fn picture(metric: Charged, file: &Path) -> Result<(), Box<dyn std::error::Error
                 screen = { kind = \"impact\", field_of_view = 20 }\n\
                 render = { width = 320, height = 180, samples = 4, adaptive = false }";
     let scene = Scene::from_toml(keys, Path::new(""))?;
-    let tracer = Integrator::new(metric, Scheme::Tsit5 { tolerance: 1e-6 }, 10_000);
-    let film = draw(&Stage::new(&scene)?.with_tracer(Box::new(tracer)), &Watch::default())?;
+    let stage = Stage::new(&scene)?.in_metric(metric, Scheme::Tsit5 { tolerance: 1e-6 }, 10_000);
+    let film = draw(&stage, &Watch::default())?;
     let shown = scene.display.picture(&film);
     let bytes: Vec<u8> = shown.pixels.iter().flatten().map(|c| (255.0 * c).round() as u8).collect();
     image::save_buffer(file, &bytes, shown.width, shown.height, image::ColorType::Rgb8)?;
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use kerrscope::spacetime::geodesic::{Fate, Path as Way, Query, Tracer};
+    use kerrscope::spacetime::geodesic::{Fate, Integrator, Path as Way, Query, Tracer};
     use kerrscope::spacetime::observer::impact_ray;
     use std::f64::consts::FRAC_PI_2;
 

@@ -23,18 +23,23 @@ use crate::light::Light;
 use crate::material::{Finish, Material, lambert};
 use crate::objects::World;
 use crate::random::Stream;
-use crate::scene::Spacetime;
 use crate::sky::{Sky, towards};
 use crate::spacetime::geodesic::{Fate, Hit, Line, ObstacleTracer, Path, Query, Ray, Side};
-use crate::spacetime::observer::Drift;
+use crate::spacetime::observer::{Drift, Patch};
 use crate::spacetime::tensor::{Vec3, dot};
+
+/// What makes pieces of surfaces.
+pub(super) type Patches = dyn Fn(Vec3<f64>, Vec3<f64>, Drift) -> Option<Patch> + Send + Sync;
 
 /// Things, and how their light is followed.
 pub(super) struct Legs {
     pub(super) world: World,
     pub(super) surfaces: Vec<Surface>,
     pub(super) tracer: Box<dyn ObstacleTracer>,
-    pub(super) spacetime: Spacetime,
+    /// A piece of a surface with a place, a normal and a motion; `None` where matter cannot move so.
+    pub(super) patch: Box<Patches>,
+    /// Whether light goes straight.
+    pub(super) flat: bool,
     pub(super) bounces: u32,
     pub(super) shifts: bool,
     pub(super) seed: u64,
@@ -118,7 +123,7 @@ impl Legs {
         path: &mut Path,
         tally: &mut Tally,
     ) -> Light {
-        if self.spacetime.is_flat() && around.disk.is_none() && ray.start.w > 0.0 {
+        if self.flat && around.disk.is_none() && ray.start.w > 0.0 {
             return self.straight(ray, around, random, tally);
         }
         let (mut ray, mut angle) = (*ray, around.angle);
@@ -159,7 +164,7 @@ impl Legs {
         let surface = &self.surfaces[hit.object];
         let shape = self.world.shape(hit.object);
         let [place, normal] = shape.settle(&hit.position);
-        let patch = self.spacetime.patch(place, normal, surface.drift)?;
+        let patch = (self.patch)(place, normal, surface.drift)?;
         let (frequency, direction) = patch.measure(hit.energy, &hit.momentum);
         let color = surface.color(shape, &place);
         gathered.dim([self.dimming(frequency); 3]);

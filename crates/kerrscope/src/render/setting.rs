@@ -49,11 +49,13 @@ pub(super) fn legs(scene: &Scene) -> Result<Option<Legs>, TextureError> {
     let mut pictures = Pictures::default();
     let surfaces =
         scene.objects.iter().map(|object| thing(object, &mut pictures)).collect::<Result<_, _>>()?;
+    let spacetime = scene.spacetime.clone();
     Ok(Some(Legs {
         world: world(scene),
         surfaces,
         tracer: obstacle_tracer(scene),
-        spacetime: scene.spacetime.clone(),
+        patch: Box::new(move |place, normal, drift| spacetime.patch(place, normal, drift)),
+        flat: scene.spacetime.is_flat(),
         bounces: scene.render.bounces,
         shifts: scene.render.shifts,
         seed: scene.render.seed,

@@ -13,8 +13,9 @@ use crate::random::Stream;
 use crate::scene::Scene;
 use crate::sky::{Sky, footprint, towards};
 use crate::spacetime::Level;
-use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Tracer};
-use crate::spacetime::observer::ObserverError;
+use crate::spacetime::geodesic::{Fate, Integrator, Path, Query, Ray, Scheme, Tracer};
+use crate::spacetime::metric::Metric;
+use crate::spacetime::observer::{ObserverError, Patch};
 use crate::spacetime::tensor::Vec3;
 use crate::texture::TextureError;
 
@@ -125,10 +126,17 @@ impl Stage {
         })
     }
 
-    /// The same with another tracer than the scene asks for: for light in a spacetime that no scene can name. The
-    /// camera, its motion and the disk stay those of the scene.
-    pub fn with_tracer(self, tracer: Box<dyn Tracer>) -> Self {
-        Self { tracer, ..self }
+    /// The same in a spacetime that no scene can name: light is followed in `metric`, and the matter of things moves in it.
+    /// The camera and its motion stay those of the scene, as do the places of things and the disk.
+    pub fn in_metric<M: Metric + 'static>(self, metric: M, scheme: Scheme, max_steps: usize) -> Self {
+        let tracer = Integrator::new(metric, scheme, max_steps);
+        let legs = self.legs.map(|legs| Legs {
+            tracer: Box::new(tracer),
+            patch: Box::new(move |place, normal, drift| Patch::in_metric(&metric, place, normal, drift)),
+            flat: false,
+            ..legs
+        });
+        Self { tracer: Box::new(tracer.with_level(self.level)), legs, ..self }
     }
 
     /// Width and height in pixels.
