@@ -11,10 +11,11 @@ use kerrscope::render::{Sampler, obstacle_tracer, tracer, world};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
 use kerrscope::spacetime::closed::{ClosedForm, NODES};
+use kerrscope::spacetime::emitter::{Circular, Sense};
 use kerrscope::spacetime::geodesic::{
     Fate, Integrator, ObstacleTracer, Path, Query, Ray, Scheme, Side, Tracer,
 };
-use kerrscope::spacetime::kerr::{horizons, redshift_factor};
+use kerrscope::spacetime::kerr::horizons;
 use kerrscope::spacetime::metric::{Kerr, LineElement};
 use kerrscope::spacetime::observer::impact_ray;
 use serde::Serialize;
@@ -292,12 +293,13 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
         Side::Reversed => shot.ray.energy,
         Side::Ingoing => -shot.ray.energy,
     };
+    let matter = shot.spin.map(|spin| Circular::kerr(spin, Sense::Prograde));
     let crossings = path.crossings.iter().enumerate().map(|(order, c)| Crossing {
         order,
         r: c.r,
         phi: finite(c.phi),
         t: finite(c.elapsed),
-        g: shot.spin.and_then(|a| redshift_factor(a, c.r, conserved.lambda, energy)),
+        g: matter.as_ref().and_then(|m| m.orbit(c.r)?.redshift_factor(conserved.lambda, energy)),
     });
     Output {
         engine: shot.follower.name(),

@@ -8,8 +8,8 @@ use std::fmt::Write;
 use common::{converges, film, linear, ray, scene, stage};
 use kerrscope::camera::Camera;
 use kerrscope::render::{Watch, draw, obstacle_tracer, world};
+use kerrscope::spacetime::emitter::{Circular, Sense};
 use kerrscope::spacetime::geodesic::{Fate, Hit, Integrator, Path, Query, Ray, Scheme};
-use kerrscope::spacetime::kerr::redshift_factor;
 use kerrscope::spacetime::metric::Kerr;
 use kerrscope::spacetime::tensor::dot;
 
@@ -115,7 +115,8 @@ fn a_ball_in_orbit_has_the_redshift_of_its_orbit() {
             let radius = kerrscope::spacetime::metric::Metric::radius(&r, &hit.position);
             let middle = kerrscope::spacetime::metric::Metric::radius(&r, &center);
             let lambda = start.conserved(spin).lambda;
-            let g = redshift_factor(spin, middle, lambda, start.energy).unwrap();
+            let orbit = Circular::kerr(spin, Sense::Prograde).orbit(middle).unwrap();
+            let g = orbit.redshift_factor(lambda, start.energy).unwrap();
             // Off the middle the well is not as deep, by about δr/r² of g, and the speed is another by Ω δr.
             let off = (radius - middle).abs() + hit.position[2].abs();
             assert!((found.powf(0.25) / g - 1.0).abs() < 0.1 * off + 1e-3, "{} {g} {off}", found.powf(0.25));

@@ -12,6 +12,7 @@
 //! This crate does no input or output and knows no clock, no thread and no SI unit.
 
 pub mod closed;
+pub mod emitter;
 pub mod formula;
 pub mod geodesic;
 pub mod geometry;

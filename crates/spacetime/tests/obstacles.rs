@@ -3,10 +3,10 @@
 mod common;
 
 use common::{Random, distance};
+use kerrscope_spacetime::emitter::{Circular, Sense};
 use kerrscope_spacetime::geodesic::{
     Curve, Fate, Integrator, Line, ObstacleTracer, Obstacles, Path, Query, Scheme, Segment, Straight, Tracer,
 };
-use kerrscope_spacetime::kerr::redshift_factor;
 use kerrscope_spacetime::metric::{Kerr, Minkowski};
 use kerrscope_spacetime::observer::{Drift, Motion, Observer, Patch, Place, clearance};
 use kerrscope_spacetime::tensor::dot;
@@ -173,7 +173,8 @@ fn a_patch_in_orbit_is_matter_in_orbit() {
                 Patch::new(Some(spin), observer.position(), [0.0, 0.0, 1.0], Drift::Turning(rate)).unwrap();
             let (frequency, _) = patch.measure(ray.energy, &ray.start.momentum());
             assert!((frequency - 1.0).abs() < 1e-12, "{frequency}");
-            let g = redshift_factor(spin, r, ray.conserved(spin).lambda, ray.energy).unwrap();
+            let orbit = Circular::kerr(spin, Sense::Prograde).orbit(r).unwrap();
+            let g = orbit.redshift_factor(ray.conserved(spin).lambda, ray.energy).unwrap();
             assert!((g - 1.0).abs() < 1e-12, "{g}");
             let velocity = random.direction().map(|c| 0.7 * c);
             let observer = Observer::new(Some(spin), place, Motion::Velocity(velocity)).unwrap();

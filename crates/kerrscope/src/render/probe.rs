@@ -3,8 +3,8 @@
 use super::layer::{Channel, Layer, ORDERS};
 use crate::disk::Disk;
 use crate::scene::Scene;
-use crate::spacetime::geodesic::{Fate, Path, Query, Ray, Side};
-use crate::spacetime::kerr::redshift_factor;
+use crate::spacetime::emitter::{Circular, Departure, Sense};
+use crate::spacetime::geodesic::{Crossing, Fate, Path, Query, Ray, Side};
 use crate::spacetime::tensor::{Vec3, dot};
 
 /// The layers that a picture has besides light, and what is needed to fill them.
@@ -12,7 +12,8 @@ use crate::spacetime::tensor::{Vec3, dot};
 pub(super) struct Probe {
     channels: Vec<Channel>,
     query: Query,
-    spin: Option<f64>,
+    /// What sends light in the plane, where that is known.
+    matter: Option<Circular>,
 }
 
 impl Probe {
@@ -25,11 +26,12 @@ impl Probe {
             windings: layers.contains(&Layer::Windings),
             ..*query
         };
-        Self {
-            channels: layers.iter().copied().flat_map(Layer::channels).collect(),
-            query,
-            spin: scene.spacetime.spin(),
-        }
+        let [nx, ny, nz] = query.plane;
+        // About −z a disk turns against the spin; its orbits are those of the mirrored hole.
+        let level = |spin: f64| spin == 0.0 || nx.hypot(ny) <= 1e-12;
+        let matter = scene.spacetime.spin().filter(|spin| level(*spin));
+        let matter = matter.map(|spin| Circular::kerr(spin * nz.signum(), Sense::Prograde));
+        Self { channels: layers.iter().copied().flat_map(Layer::channels).collect(), query, matter }
     }
 
     pub(super) fn channels(&self) -> &[Channel] {
@@ -68,26 +70,17 @@ impl Probe {
             Layer::R => crossing().map_or(f64::NAN, |c| c.r),
             Layer::Phi => crossing().map_or(f64::NAN, |c| c.phi),
             Layer::T => crossing().map_or(f64::NAN, |c| c.elapsed),
-            Layer::G => crossing().zip(ray).and_then(|(c, ray)| self.redshift(ray, c.r)).unwrap_or(f64::NAN),
+            Layer::G => crossing().zip(ray).and_then(|(c, ray)| self.redshift(ray, c)).unwrap_or(f64::NAN),
             Layer::SkyTheta => path.direction.map_or(f64::NAN, |[theta, _]| theta),
             Layer::SkyPhi => path.direction.map_or(f64::NAN, |[_, phi]| phi),
             Layer::Depth => ray.map_or(f64::INFINITY, |ray| depth(ray, path, disk)),
         }
     }
 
-    fn redshift(&self, ray: &Ray, r: f64) -> Option<f64> {
-        let (spin, [nx, ny, nz]) = (self.spin?, self.query.plane);
-        if spin != 0.0 && nx.hypot(ny) > 1e-12 {
-            return None;
-        }
-        // L about the plane's normal, which for the equator is L_z.
-        let along = dot(&ray.start.j, &[nx, ny, nz]);
-        let (lambda, energy) = match ray.side {
-            Side::Reversed => (-along / ray.energy, ray.energy),
-            Side::Ingoing => (along / ray.energy, -ray.energy),
-        };
-        // About −z a disk turns against the spin; its orbits are those of the mirrored hole.
-        redshift_factor(spin * nz.signum(), r, lambda, energy)
+    fn redshift(&self, ray: &Ray, crossing: &Crossing) -> Option<f64> {
+        let light = Departure::new(ray, crossing, &self.query.plane);
+        let orbit = self.matter.as_ref()?.orbit(crossing.r)?;
+        orbit.redshift_factor(light.lambda, light.energy)
     }
 }
 

@@ -260,6 +260,7 @@ impl Work<'_> {
             let (x, y) = (x.to_array(), y.to_array());
             let (r, phi, elapsed) =
                 (meeting.r.to_array(), meeting.phi.to_array(), meeting.elapsed.to_array());
+            let (normal, inwards) = (meeting.normal.to_array(), meeting.inwards.to_array());
             for (lane, ready) in some.iter().enumerate() {
                 if met[lane] > 0.0 {
                     paths[ready.ray as usize].crossings.push(Crossing {
@@ -267,6 +268,8 @@ impl Work<'_> {
                         r: r[lane],
                         phi: phi[lane],
                         elapsed: elapsed[lane],
+                        normal: normal[lane],
+                        outward: inwards[lane] > 0.0,
                     });
                 }
             }

@@ -115,6 +115,9 @@ impl<S: Scalar, const N: usize> Radial<S> for Distant<'_, S, N> {
         let delta = between.mul_add(spin * spin * between - 2.0, u.constant(1.0));
         let azimuth = self.azimuth.at(angle, (sin, cos)) - self.begun[1]
             + rest * numerator(spin, lambda, between) / delta;
-        Place { u: u + change, azimuth, time: tau.constant(f64::NAN) }
+        // χ grows, and vanishes at the turning point.
+        let one = tau.constant(1.0);
+        let inwards = S::select(angle.less(one.constant(0.0)), one, -one);
+        Place { u: u + change, azimuth, time: tau.constant(f64::NAN), inwards }
     }
 }

@@ -31,6 +31,8 @@ pub struct Place<S> {
     pub azimuth: S,
     /// Coordinate time that it has added, regularised at infinity; NaN unless asked for.
     pub time: S,
+    /// +1 where u grows along the ray, −1 where it does not.
+    pub inwards: S,
 }
 
 /// A way to compute the radial motion of photons.
@@ -56,6 +58,10 @@ pub struct Meeting<S: Scalar> {
     pub elapsed: S,
     /// Kerr–Schild x and y.
     pub position: [S; 2],
+    /// p_z of the light as it comes, that is −p_z of the ray.
+    pub normal: S,
+    /// +1 where the ray goes inwards, and light outwards; −1 where it does not.
+    pub inwards: S,
 }
 
 /// Follows photons with η > 0: tells each of at most `count` crossings of each lane, and gives θ and
@@ -85,7 +91,7 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
         let tau = S::select(met, tau, total * 0.5);
         let meeting = total.outline(
             #[inline(always)]
-            || meeting(start, &radial.at(tau), met, [turned, height]),
+            || meeting(start, &radial.at(tau), met, [turned, height], n),
         );
         each(&meeting);
         n += n.constant(1.0);
@@ -100,14 +106,15 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
     [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
 }
 
-/// The crossing at a place, up to which the motion in θ has added `turned` to the azimuth and `height` to the
-/// time.
+/// The crossing at a place, where the phase of the motion in θ is nπ and up to which it has added `turned` to the azimuth
+/// and `height` to the time.
 #[inline(always)]
 fn meeting<S: Scalar>(
     start: &Start<S>,
     place: &Place<S>,
     met: S::Mask,
     [turned, height]: [S; 2],
+    n: S,
 ) -> Meeting<S> {
     let spin = start.photon.spin;
     let r = place.u.recip();
@@ -115,5 +122,8 @@ fn meeting<S: Scalar>(
     // x + iy = (r + is) e^{iφ̃}, φ̃ = φ + tw.
     let (sin, cos) = (phi + start.horizons.twist(place.u)).sin_cos();
     let position = [r * cos - spin * sin, r * sin + spin * cos];
-    Meeting { met, r, phi, elapsed: place.time + height, position }
+    // μ′ = √η (−1)ⁿ, and p_z = μ′/r.
+    let odd = n - (n * 0.5).round() * 2.0;
+    let normal = start.photon.eta.sqrt() * place.u * (odd.abs() * 2.0 - 1.0);
+    Meeting { met, r, phi, elapsed: place.time + height, position, normal, inwards: place.inwards }
 }

@@ -372,6 +372,11 @@ impl<S: Scalar, const PLAIN: bool, const TIMED: bool> Radial<S> for Sweep<'_, S,
         } else {
             u.constant(f64::NAN)
         };
-        Place { u, azimuth, time }
+        let Course { inwards, shape, lead, .. } = self.start.course;
+        let zero = u.constant(0.0);
+        // Light that has a turning point ahead turns there.
+        let turned = S::select(lead.less(zero), S::select(late, -inwards, inwards), inwards);
+        let inwards = if PLAIN { inwards } else { S::select(shape.less(zero), turned, inwards) };
+        Place { u, azimuth, time, inwards }
     }
 }

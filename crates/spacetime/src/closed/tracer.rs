@@ -107,6 +107,8 @@ impl ClosedForm {
                 r: meeting.r,
                 phi: meeting.phi,
                 elapsed: meeting.elapsed,
+                normal: meeting.normal,
+                outward: meeting.inwards > 0.0,
             });
         };
         let shared = &self.shared;

@@ -26,6 +26,8 @@ pub trait Chart<S: Scalar, const D: usize>: Flow<S, D> {
     /// Rewrites a state and its slope, the photon being the same, where they would not be regular further on.
     #[inline(always)]
     fn settle(&self, _y: &mut [S; D], _slope: &mut [S; D]) {}
+    /// The rate of 1/distance from the origin, or something of its sign, from a state and its slope.
+    fn approach(y: &[S; D], slope: &[S; D]) -> S;
     /// Negative once the photon has left the chart's reach.
     fn reach(&self, y: &[S; D]) -> S;
     /// What is above 1/horizon where the photon is captured: 1/radius as a rule.
@@ -87,6 +89,10 @@ impl<M: Metric, S: Scalar, const D: usize> Chart<S, D> for InvertedFlow<M, S> {
             y[8] += kappa * w.ln();
             slope[8] += kappa * (slope[0] / w);
         }
+    }
+    #[inline(always)]
+    fn approach(_y: &[S; D], slope: &[S; D]) -> S {
+        slope[0]
     }
     #[inline(always)]
     fn reach(&self, y: &[S; D]) -> S {
@@ -158,6 +164,9 @@ impl<M: Metric, const D: usize> Chart<f64, D> for BoundedAffine<M> {
     }
     fn virial(&self, y: &[f64; D]) -> f64 {
         if D == 7 { y[6] } else { 0.0 }
+    }
+    fn approach(y: &[f64; D], slope: &[f64; D]) -> f64 {
+        -dot(&[y[0], y[1], y[2]], &[slope[0], slope[1], slope[2]])
     }
     fn reach(&self, y: &[f64; D]) -> f64 {
         self.limit - dot(&[y[0], y[1], y[2]], &[y[0], y[1], y[2]]).sqrt()

@@ -1,6 +1,7 @@
 //! Dense output: the state anywhere within a step.
 
 use crate::scalar::Scalar;
+use crate::tensor::each;
 
 /// The polynomial
 ///   y(θ) = y₀ + θ{f₀ + (1−θ){f₁ + θ{f₂ + (1−θ){f₃ + …}}}},   θ = 0 … 1 across the step.
@@ -60,6 +61,25 @@ impl<S: Scalar, const D: usize> Dense<S, D> {
             y[i] = self.component(i, theta);
         }
         y
+    }
+
+    /// dy/dθ of the whole state at θ.
+    pub(super) fn slope(&self, theta: S) -> [S; D] {
+        each(
+            #[inline(always)]
+            |i| self.component_slope(i, theta),
+        )
+    }
+
+    /// dy/dθ of one component at θ.
+    #[inline(always)]
+    pub(super) fn component_slope(&self, i: usize, theta: S) -> S {
+        tangent(
+            #[inline(always)]
+            |n| self.terms[n][i],
+            self.used,
+            theta,
+        )[1]
     }
 
     /// The coefficients of one component in Bernstein's basis of degree 7, B₀ … B₇ over the step.
@@ -123,6 +143,25 @@ const BERNSTEIN: [[f64; 8]; 7] = {
     table
 };
 
+/// The sum of the terms at θ, each times what it is multiplied by, and its slope.
+#[inline(always)]
+fn tangent<S: Scalar>(term: impl Fn(usize) -> S, used: usize, theta: S) -> [S; 2] {
+    let other = -theta + 1.0;
+    let mut sum = theta.constant(0.0);
+    let mut slope = sum;
+    for n in (0..used).rev() {
+        let inner = sum + term(n);
+        if n % 2 == 0 {
+            slope = slope.mul_add(theta, inner);
+            sum = inner * theta;
+        } else {
+            slope = slope.mul_add(other, -inner);
+            sum = inner * other;
+        }
+    }
+    [sum, slope]
+}
+
 #[inline(always)]
 fn weighted_sum<S: Scalar, const D: usize, const N: usize>(y: &[S; D], weights: &[S; N]) -> S {
     let mut sum = y[0] * weights[0];
@@ -143,19 +182,12 @@ impl<S: Scalar> Dense<S, 1> {
     /// The value at θ and dy/dθ.
     #[inline(always)]
     fn tangent(&self, theta: S) -> [S; 2] {
-        let other = -theta + 1.0;
-        let mut sum = theta.constant(0.0);
-        let mut slope = sum;
-        for n in (0..self.used).rev() {
-            let inner = sum + self.terms[n][0];
-            if n % 2 == 0 {
-                slope = slope.mul_add(theta, inner);
-                sum = inner * theta;
-            } else {
-                slope = slope.mul_add(other, -inner);
-                sum = inner * other;
-            }
-        }
+        let [sum, slope] = tangent(
+            #[inline(always)]
+            |n| self.terms[n][0],
+            self.used,
+            theta,
+        );
         [self.start[0] + sum, slope]
     }
 

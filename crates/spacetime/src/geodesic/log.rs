@@ -6,6 +6,7 @@ use super::segment::{Curve, Segment};
 use super::walk::{Bounds, Control, End, Visitor, walk};
 use super::{Crossing, Dense, Obstacles, Path, Query, Ray};
 use crate::metric::{Inverted, Metric};
+use crate::tensor::dot;
 
 /// Where elapsed time and azimuth are counted from.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +17,9 @@ pub struct Origin {
     pub radial: f64,
     /// The chart's time less the Boyer–Lindquist time at the camera, less 2 ln(r/2) for r → ∞.
     pub offset: f64,
+    /// What the light's p_i/E is times the ray's: −1 where the photon is followed reversed in time, +1 where it is the
+    /// photon with p_i and E of the other sign.
+    pub way: f64,
 }
 
 impl Origin {
@@ -24,19 +28,19 @@ impl Origin {
         let Inverted { w, n, q, .. } = ray.start;
         let massive = metric.horizon() > 0.0;
         if !query.elapsed && query.points == 0 {
-            Self { azimuth: ray.azimuth, radial: f64::NAN, offset: f64::NAN }
+            Self { azimuth: ray.azimuth, radial: f64::NAN, offset: f64::NAN, way: -1.0 }
         } else if w > 0.0 {
             let r = 1.0 / metric.inverse_radius(w, &n);
-            Self { azimuth: ray.azimuth, radial: q / w, offset: metric.time_offset(r) }
+            Self { azimuth: ray.azimuth, radial: q / w, offset: metric.time_offset(r), way: -1.0 }
         } else {
             let offset = if massive { 2.0 * 2f64.ln() } else { 0.0 };
-            Self { azimuth: ray.azimuth, radial: 0.0, offset }
+            Self { azimuth: ray.azimuth, radial: 0.0, offset, way: -1.0 }
         }
     }
 
     /// For a camera inside the horizon, where Boyer–Lindquist time means nothing.
     pub fn within(ray: &Ray) -> Self {
-        Self { azimuth: ray.azimuth, radial: ray.start.q / ray.start.w, offset: f64::NAN }
+        Self { azimuth: ray.azimuth, radial: ray.start.q / ray.start.w, offset: f64::NAN, way: 1.0 }
     }
 }
 
@@ -127,7 +131,7 @@ impl<'a, C: Chart<f64, D>, M: Metric, const D: usize> Log<'a, C, M, D> {
 impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D> {
     const WANTS_SEGMENTS: bool = false;
 
-    fn crossing(&mut self, y: &[f64; D], swept: f64) {
+    fn crossing(&mut self, y: &[f64; D], swept: f64, approach: f64) {
         if self.path.crossings.len() >= self.query.max_crossings {
             return;
         }
@@ -143,6 +147,9 @@ impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Log<'_, C, M, D
             r,
             phi: self.origin.azimuth + swept - self.metric.azimuth_offset(r),
             elapsed,
+            normal: self.origin.way * dot(&state.momentum(), &self.query.plane) / self.chart.energy(),
+            // The ray comes nearer where the light goes away.
+            outward: approach > 0.0,
         });
     }
 
@@ -157,8 +164,8 @@ struct Scout<'a, 'b, C, M, const D: usize>(&'a mut Log<'b, C, M, D>);
 impl<C: Chart<f64, D>, M: Metric, const D: usize> Visitor<D> for Scout<'_, '_, C, M, D> {
     const WANTS_SEGMENTS: bool = true;
 
-    fn crossing(&mut self, y: &[f64; D], swept: f64) {
-        self.0.crossing(y, swept);
+    fn crossing(&mut self, y: &[f64; D], swept: f64, approach: f64) {
+        self.0.crossing(y, swept, approach);
     }
 
     fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) -> Option<(f64, usize)> {

@@ -87,6 +87,11 @@ pub struct Crossing {
     /// Coordinate time from the crossing to the camera, M; for a camera at infinity
     /// less r + 2 ln(r/2) of the camera, r → ∞. NaN unless asked for.
     pub elapsed: f64,
+    /// Momentum of the light, as it comes, along the plane's normal per energy at infinity: p_z/E for the equator, ±√η/r
+    /// around a Kerr hole.
+    pub normal: f64,
+    /// Whether the light, as it comes, leaves the plane outwards: its radius grows with time.
+    pub outward: bool,
 }
 
 /// Where a ray meets something that is in its way.

@@ -58,7 +58,15 @@ impl Tracer for Straight {
                 // The camera's distance r is taken off (there is no mass to delay light).
                 dot(&position, &v)
             };
-            path.crossings.push(Crossing { position, r, phi: turned(&position), elapsed });
+            // What is followed is the photon reversed.
+            path.crossings.push(Crossing {
+                position,
+                r,
+                phi: turned(&position),
+                elapsed,
+                normal: -climb,
+                outward: dot(&position, &v) < 0.0,
+            });
         }
         if query.points > 0 && ray.start.w > 0.0 {
             let w = ray.start.w;

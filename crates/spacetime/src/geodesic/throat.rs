@@ -16,7 +16,7 @@ struct Unseen;
 
 impl<const D: usize> Visitor<D> for Unseen {
     const WANTS_SEGMENTS: bool = false;
-    fn crossing(&mut self, _y: &[f64; D], _swept: f64) {}
+    fn crossing(&mut self, _y: &[f64; D], _swept: f64, _approach: f64) {}
     fn segment(&mut self, _: &Dense<f64, D>, _: f64, _: f64, _: f64) -> Option<(f64, usize)> {
         None
     }

@@ -37,8 +37,9 @@ pub struct Bounds {
 pub trait Visitor<const D: usize> {
     /// Whether [`Visitor::segment`] wants to be called.
     const WANTS_SEGMENTS: bool;
-    /// The plane was crossed at state `y`, `swept` radians of azimuth after the start.
-    fn crossing(&mut self, y: &[f64; D], swept: f64);
+    /// The plane was crossed at state `y`, `swept` radians of azimuth after the start, 1/distance growing there if
+    /// `approach` is positive.
+    fn crossing(&mut self, y: &[f64; D], swept: f64, approach: f64);
     /// A step from parameter `sigma`, of size `h`, counts up to θ = `until`, unless something stands in the way: then
     /// the answer is θ there, and its number.
     fn segment(&mut self, dense: &Dense<f64, D>, sigma: f64, h: f64, until: f64) -> Option<(f64, usize)>;
@@ -159,7 +160,8 @@ where
             let meet = |theta: f64| {
                 if theta < until {
                     let sweep = winding::sweep(&dense, C::PLACE, &heading, theta, sense);
-                    visitor.crossing(&dense.at(theta), swept + sweep);
+                    let y = dense.at(theta);
+                    visitor.crossing(&y, swept + sweep, C::approach(&y, &dense.slope(theta)));
                 }
             };
             if crosses || grazes {

@@ -4,11 +4,9 @@
 
 mod conserved;
 mod critical_curve;
-mod emitter;
 mod orbits;
 
 pub use conserved::Conserved;
 pub(crate) use conserved::carter;
 pub use critical_curve::{CriticalCurve, Extent};
-pub use emitter::redshift_factor;
 pub use orbits::{Orbits, ergosphere, horizons};

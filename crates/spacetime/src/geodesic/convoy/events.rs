@@ -63,6 +63,8 @@ struct Found<const D: usize, const W: usize> {
     y: [[f64; W]; D],
     /// The azimuth swept from the start of the step to there.
     swept: [f64; W],
+    /// The rate of 1/distance there.
+    approach: [f64; W],
     /// Where it happens before infinity, and outside the horizon.
     outside: u64,
     /// Steps, which are rare, to be looked into one by one.
@@ -101,7 +103,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         if self.count == 0 {
             return;
         }
-        let mut found = Found { y: [[0.0; W]; D], swept: [0.0; W], outside: 0, dips: Vec::new() };
+        let mut found =
+            Found { y: [[0.0; W]; D], swept: [0.0; W], approach: [0.0; W], outside: 0, dips: Vec::new() };
         let (this, result) = (&*self, &mut found);
         simd.vectorize(
             #[inline(always)]
@@ -118,7 +121,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
                 (Kind::Crosses, None) => {
                     // A ray that ends within the horizon has crossed it by then.
                     if y[0] > task.integrator.reversed.edge() && (!falls || found.outside >> lane & 1 != 0) {
-                        task.meet(ray, &y, swept);
+                        task.meet(ray, &y, swept, found.approach[lane]);
                     }
                 }
                 (Kind::Leaves, _) => task.conclude(ray, &End { stop: Stop::Left, y, swept, steps }),
@@ -176,6 +179,7 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
         let depth = flow.inverse_radius(&there);
         found.outside = !S::bits(depth.constant(1.0 / flow.metric.horizon()).less(depth));
         found.y = scatter(&there);
+        found.approach = dense.component_slope(0, theta).scatter();
         found.swept = self.sweep::<L, S>(&dense, heading, theta, &there);
         for lane in 0..self.count {
             let kind = self.waiting[lane].kind;
@@ -240,7 +244,8 @@ impl<const D: usize, const STAGES: usize, const W: usize> Events<D, STAGES, W> {
             let inside = flow.inverse_radius(&y) * flow.metric.horizon() > 1.0;
             if y[0] > flow.metric.edge() && !(falls && inside) {
                 let sweep = winding::sweep(dense, 1, heading, theta, self.sense(lane));
-                task.meet(ray, &y, self.record.swept[lane] + task.corrections[ray] + sweep);
+                let swept = self.record.swept[lane] + task.corrections[ray] + sweep;
+                task.meet(ray, &y, swept, dense.component_slope(0, theta));
             }
         }
     }

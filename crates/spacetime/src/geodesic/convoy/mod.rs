@@ -43,12 +43,12 @@ impl<M: Metric> Task<'_, M> {
         InvertedFlow { metric: self.integrator.reversed, energy: self.rays[ray].energy }
     }
 
-    /// The plane is crossed at state y.
-    fn meet<const D: usize>(&mut self, ray: usize, y: &[f64; D], swept: f64) {
+    /// The plane is crossed at state y, whose 1/distance has the rate `approach`.
+    fn meet<const D: usize>(&mut self, ray: usize, y: &[f64; D], swept: f64, approach: f64) {
         let (flow, path) = (self.flow(ray), &mut self.paths[ray]);
         if path.crossings.len() < self.query.max_crossings {
             let origin = Origin::of(&flow.metric, &self.rays[ray], self.query);
-            Log::new(&flow, flow.metric, self.query, origin, path).crossing(y, swept);
+            Log::new(&flow, flow.metric, self.query, origin, path).crossing(y, swept, approach);
         }
     }
 

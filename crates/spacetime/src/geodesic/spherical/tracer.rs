@@ -9,7 +9,7 @@ use super::start;
 use super::walk::{End, Limits, Segment, walk};
 use crate::geometry::BoyerLindquist;
 use crate::metric::{Kerr, Metric};
-use crate::tensor::dot;
+use crate::tensor::{Vec3, dot};
 use std::f64::consts::PI;
 
 /// A tracer of light around a Kerr hole in Boyer–Lindquist coordinates, which without spin are Schwarzschild's.
@@ -137,6 +137,8 @@ impl SphericalIntegrator {
                 r: u.recip(),
                 phi: y[2] + if y[1].sin() < 0.0 { PI } else { 0.0 },
                 elapsed: if query.elapsed { flow.elapsed(y) } else { f64::NAN },
+                normal: -across(y, u, flow.momentum, &query.plane) / flow.energy,
+                outward: y[3] < 0.0,
             });
         };
         let mut segments = Vec::new();
@@ -245,4 +247,12 @@ impl Tracer for SphericalIntegrator {
             path.windings = self.hole.windings(ray.energy, &ray.start);
         }
     }
+}
+
+/// The momentum of a state along a unit vector orthogonal to its place: −sin θ p_θ/r along +z.
+fn across(y: &[f64; WIDTH], u: f64, momentum: f64, along: &Vec3<f64>) -> f64 {
+    let ((sin, cos), (sin_phi, cos_phi)) = (y[1].sin_cos(), y[2].sin_cos());
+    let south = dot(&[cos * cos_phi, cos * sin_phi, -sin], along);
+    let east = dot(&[-sin_phi, cos_phi, 0.0], along);
+    u * (y[4] * south + if momentum == 0.0 { 0.0 } else { momentum / sin * east })
 }
