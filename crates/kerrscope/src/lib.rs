@@ -14,6 +14,8 @@ pub mod output;
 pub mod random;
 pub mod render;
 pub mod scene;
+pub mod si;
 pub mod sky;
+pub mod spectrum;
 pub mod texture;
 pub mod validate;
