@@ -18,4 +18,5 @@ pub mod si;
 pub mod sky;
 pub mod spectrum;
 pub mod texture;
+pub mod units;
 pub mod validate;
