@@ -8,6 +8,7 @@ pub mod disk;
 pub mod display;
 pub mod light;
 pub mod material;
+pub mod measure;
 mod noise;
 pub mod objects;
 pub mod output;
