@@ -59,7 +59,7 @@ fn keys_outside_their_sections() {
                 3,
                 1,
                 "`fog` is not in a section",
-                "a scene has the sections [camera], [disk], [[object]], [observer], [other_sky], [render], [screen], [sky], [spacetime]",
+                "a scene has the sections [camera], [disk], [[object]], [observer], [other_sky], [render], [screen], [sky], [spacetime], [target], [units]",
             ),
             (4, 1, "`sky` cannot be a list", "write [sky] on a line of its own, and its keys below"),
         ],

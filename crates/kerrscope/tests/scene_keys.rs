@@ -9,6 +9,7 @@ use kerrscope::render::{Channel, Layer};
 use kerrscope::scene::{self, Engine, Method, Scene, SceneFile};
 use kerrscope::sky::{Frame, Orientation};
 use kerrscope::spacetime::observer;
+use kerrscope::units::Units;
 
 fn scene(text: &str) -> Scene {
     Scene::from_toml(text, Path::new("")).unwrap_or_else(|faults| panic!("{text}\n{faults}"))
@@ -216,6 +217,20 @@ fn every_key() {
         ("spacetime.name = \"minkowski\"\ndisk.inner = 6", Engine::Integrator),
     ] {
         assert_eq!(read(text).render.engine, engine, "{text}");
+    }
+
+    // Units, one by one, and what headers say.
+    assert_eq!(read("").units, Units::default());
+    let s = read("[units]\nmass = 6.5e9\ndistance = 16.8e6\nfrequency = 230e9");
+    let units = Units { mass: Some(6.5e9), distance: Some(16.8e6), frequency: Some(230e9) };
+    assert_eq!(s.units, units);
+    assert_eq!(read("units.mass = 10").units, Units { mass: Some(10.0), ..Units::default() });
+    let s = read("target = { name = \"M87\", right_ascension = 180, declination = -90, mjd = 57850 }");
+    assert_eq!((s.target.name.as_str(), s.target.right_ascension), ("M87", PI));
+    assert_eq!((s.target.declination, s.target.mjd), (-FRAC_PI_2, 57850.0));
+    for name in ["", " ", "M87★", &"M".repeat(61)] {
+        let faults = Scene::from_toml(&format!("target.name = \"{name}\""), file).unwrap_err();
+        assert!(faults.to_string().contains("give 1 to 60 printable characters of ASCII"), "{faults}");
     }
 
     // A layer that is shown is computed.

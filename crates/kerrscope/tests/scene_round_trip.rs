@@ -9,7 +9,7 @@ use kerrscope::render::Layer;
 use kerrscope::scene::file::{
     Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Object, ObjectMotion,
     ObjectMotionName, Observer, RelativeTo, Render, Screen, ScreenKind, ShapeName, Sky, SkyKind, Spacetime,
-    SpacetimeName, Texture, TextureKind, Velocity,
+    SpacetimeName, Target, Texture, TextureKind, Units, Velocity,
 };
 use kerrscope::scene::{Coordinates, Engine, Method, Scene, SceneFile};
 use kerrscope::sky::Frame;
@@ -252,10 +252,21 @@ fn objects() -> impl Strategy<Value = Object> {
     })
 }
 
+fn headers() -> impl Strategy<Value = (Units, Target)> {
+    let units =
+        (option::of(number(1e-20, 1e20)), option::of(number(1e-10, 1e12)), option::of(number(1.0, 1e30)))
+            .prop_map(|(mass, distance, frequency)| Units { mass, distance, frequency });
+    let target =
+        ("[!-~][ -~]{0,58}[!-~]", number(0.0, 360.0), number(-90.0, 90.0), number(0.0, 1e6)).prop_map(
+            |(name, right_ascension, declination, mjd)| Target { name, right_ascension, declination, mjd },
+        );
+    (units, prop_oneof![Just(Target::default()), target])
+}
+
 fn scene_files() -> impl Strategy<Value = SceneFile> {
     let things = prop_oneof![3 => Just(Vec::new()), 1 => proptest::collection::vec(objects(), 0..4)];
-    (spacetimes(), observers(), disks(), things, skies(), renders(), cameras()).prop_map(
-        |(spacetime, (mut observer, screen), mut disk, object, sky, render, camera)| {
+    (spacetimes(), observers(), disks(), things, skies(), renders(), cameras(), headers()).prop_map(
+        |(spacetime, (mut observer, screen), mut disk, object, sky, render, camera, (units, target))| {
             if spacetime.name == SpacetimeName::Minkowski && disk.inner == Inner::Isco(Isco::Isco) {
                 disk.inner = Inner::Radius(3.0);
             }
@@ -279,7 +290,19 @@ fn scene_files() -> impl Strategy<Value = SceneFile> {
                 // Not for the closed form.
                 render.engine = Engine::Integrator;
             }
-            SceneFile { spacetime, observer, screen, disk, object, sky, other_sky: None, render, camera }
+            SceneFile {
+                spacetime,
+                observer,
+                screen,
+                disk,
+                object,
+                sky,
+                other_sky: None,
+                render,
+                camera,
+                units,
+                target,
+            }
         },
     )
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{FileError, Provenance, exr, png};
+use super::{FileError, ImageSet, Provenance, exr, fits, hdf5, png};
 use crate::render::Film;
 use crate::scene::Scene;
 
@@ -13,24 +13,31 @@ pub enum Format {
     Png,
     /// Linear light and the data layers.
     Exr,
+    /// Intensity in physical units, linear light and the data layers, with a header for astronomers.
+    Fits,
+    /// The same for programs.
+    Hdf5,
 }
 
 impl Format {
     /// Every format.
-    pub const ALL: [Self; 2] = [Self::Png, Self::Exr];
+    pub const ALL: [Self; 4] = [Self::Png, Self::Exr, Self::Fits, Self::Hdf5];
 
-    /// The ending of names, without the dot.
-    pub const fn ending(self) -> &'static str {
+    /// The endings of names, without the dot.
+    pub const fn endings(self) -> &'static [&'static str] {
         match self {
-            Self::Png => "png",
-            Self::Exr => "exr",
+            Self::Png => &["png"],
+            Self::Exr => &["exr"],
+            Self::Fits => &["fits", "fit", "fts"],
+            Self::Hdf5 => &["h5", "hdf5"],
         }
     }
 
     /// The format of a file by its name, capitals or not.
     pub fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?;
-        Self::ALL.into_iter().find(|format| ending.eq_ignore_ascii_case(format.ending()))
+        let named = |format: &Self| format.endings().iter().any(|known| ending.eq_ignore_ascii_case(known));
+        Self::ALL.into_iter().find(named)
     }
 
     /// Writes a scene's picture, whole or not at all.
@@ -42,6 +49,8 @@ impl Format {
         match self {
             Self::Png => png::write(path, &scene.display.picture(film), scene.display.depth, &made),
             Self::Exr => exr::write(path, film, &made),
+            Self::Fits => fits::write(path, &ImageSet::of(scene, film)),
+            Self::Hdf5 => hdf5::write(path, &ImageSet::of(scene, film)),
         }
     }
 
@@ -53,6 +62,8 @@ impl Format {
         match self {
             Self::Png => png::read_provenance(path),
             Self::Exr => exr::read_provenance(path),
+            Self::Fits => fits::read_provenance(path),
+            Self::Hdf5 => hdf5::read_provenance(path),
         }
     }
 }

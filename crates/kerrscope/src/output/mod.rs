@@ -6,10 +6,14 @@
 mod error;
 pub mod exr;
 pub mod file;
+pub mod fits;
 mod format;
+pub mod hdf5;
+mod images;
 pub mod png;
 mod provenance;
 
 pub use error::FileError;
 pub use format::Format;
+pub use images::{Image, ImageSet, Intensity, Radiance};
 pub use provenance::{Provenance, ProvenanceFault};

@@ -3,6 +3,7 @@
 use super::layer::Channel;
 use super::tally::Tally;
 use super::tile::{Area, Tile};
+use crate::measure::Moments;
 use crate::spacetime::Level;
 
 /// A picture in linear light, with data layers. Pixels go along the rows, the top row first.
@@ -32,16 +33,6 @@ pub struct Plane {
     pub channel: Channel,
     /// One a pixel, of the ray through its centre; NaN where there is none.
     pub values: Vec<f32>,
-}
-
-/// Where a picture's light lies.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Moments {
-    /// Mean place, from the picture's middle, right and up.
-    pub centroid: [f64; 2],
-    /// Widths along the major and the minor axis: 2√(2 ln 2) standard deviations, which is the
-    /// full width at half maximum of a Gaussian.
-    pub size: [f64; 2],
 }
 
 impl Film {
@@ -75,30 +66,12 @@ impl Film {
         self.tally.add(&tile.tally);
     }
 
-    /// First and second moments of the luminance (Rec. 709), in units in which a pixel has the
-    /// size `pixel`. `None` for a dark picture.
+    /// Moments of the luminance (Rec. 709), in units in which a pixel has the size `pixel`. `None` for a dark picture.
     pub fn moments(&self, pixel: f64) -> Option<Moments> {
-        let (mut sum, mut first, mut second) = (0.0, [0.0; 2], [0.0; 3]);
-        let middle = [0.5 * f64::from(self.width), 0.5 * f64::from(self.height)];
-        for (row, line) in self.light.chunks_exact(self.width as usize).enumerate() {
-            for (column, light) in line.iter().enumerate() {
-                let [r, g, b] = light.map(f64::from);
-                let weight = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-                let (x, y) = (column as f64 + 0.5 - middle[0], middle[1] - row as f64 - 0.5);
-                sum += weight;
-                first = [first[0] + weight * x, first[1] + weight * y];
-                second = [second[0] + weight * x * x, second[1] + weight * x * y, second[2] + weight * y * y];
-            }
-        }
-        if !(sum > 0.0) {
-            return None;
-        }
-        let [x, y] = first.map(|f| f / sum);
-        let [xx, xy, yy] = [second[0] / sum - x * x, second[1] / sum - x * y, second[2] / sum - y * y];
-        // Eigenvalues of the covariance.
-        let (mean, half) = (0.5 * (xx + yy), (0.25 * (xx - yy).powi(2) + xy * xy).sqrt());
-        let width = |variance: f64| (8.0 * 2f64.ln() * variance.max(0.0)).sqrt() * pixel;
-        Some(Moments { centroid: [x * pixel, y * pixel], size: [width(mean + half), width(mean - half)] })
+        Moments::of([self.width, self.height], pixel, |place| {
+            let [r, g, b] = self.light[place].map(f64::from);
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        })
     }
 }
 

@@ -12,7 +12,7 @@ mod tally;
 mod tile;
 mod tracer;
 
-pub use film::{Film, Moments, Plane};
+pub use film::{Film, Plane};
 pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;
 pub use setting::world;

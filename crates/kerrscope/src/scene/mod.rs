@@ -44,12 +44,14 @@ mod valid;
 
 use std::path::Path;
 
+use crate::units::Units;
+
 pub use fault::{Fault, Faults, Source};
 pub use file::{Coordinates, SceneFile};
 pub use metric::{known_metric, known_metrics, metric_from_file};
 pub use valid::{
     Disk, Display, Engine, Method, Object, ObjectPattern, Observer, Render, Screen, ScreenKind, Sky,
-    SkyPicture, Spacetime, Surface,
+    SkyPicture, Spacetime, Surface, Target,
 };
 
 /// What to call a text that came from no file.
@@ -76,6 +78,10 @@ pub struct Scene {
     pub render: Render,
     /// How light becomes a picture.
     pub display: Display,
+    /// What M is, and at which frequency the picture is taken.
+    pub units: Units,
+    /// What headers of files say of the thing that is seen.
+    pub target: Target,
     /// What it was built from, complete.
     file: SceneFile,
 }

@@ -327,6 +327,19 @@ pub enum Method {
     Rk4,
 }
 
+/// What is seen, as headers of FITS and HDF5 files have it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its name: 1 to 60 printable characters of ASCII.
+    pub name: String,
+    /// Right ascension of the picture's middle in radians.
+    pub right_ascension: f64,
+    /// Declination of the picture's middle in radians.
+    pub declination: f64,
+    /// The time as a modified Julian date.
+    pub mjd: f64,
+}
+
 /// What picture files show.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Display {

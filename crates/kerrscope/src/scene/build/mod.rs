@@ -9,6 +9,7 @@ mod observer;
 mod screen;
 mod sky;
 mod spacetime;
+mod target;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -56,6 +57,8 @@ pub(super) fn build(
         other_sky: builder.other_sky(&file, &spacetime),
         render: builder.render(&file, &spacetime, observer.place),
         display: builder.display(&file.camera.display),
+        units: (&file.units).into(),
+        target: builder.target(&file.target),
         spacetime,
         file,
     }

@@ -11,6 +11,7 @@ mod render;
 mod screen;
 mod sky;
 mod spacetime;
+mod units;
 
 pub use disk::{Disk, DiskModel, Inner, Isco};
 pub use object::{Object, ObjectMotion, ObjectMotionName, ShapeName, Texture, TextureKind};
@@ -22,6 +23,7 @@ pub use screen::{Screen, ScreenKind};
 pub(super) use sky::USES as SKY_USES;
 pub use sky::{ImageFrame, Sky, SkyKind};
 pub use spacetime::{CoordinateKind, Coordinates, Formula, Reversal, Spacetime, SpacetimeName};
+pub use units::{Target, Units};
 
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -54,6 +56,12 @@ pub struct SceneFile {
     pub render: Render,
     /// How light becomes a picture.
     pub camera: Camera,
+    /// What M is, and at which frequency the picture is taken.
+    #[serde(skip_serializing_if = "Units::is_empty")]
+    pub units: Units,
+    /// What the headers of FITS and HDF5 files call the picture, and where on the sky they put it.
+    #[serde(skip_serializing_if = "Target::is_default")]
+    pub target: Target,
 }
 
 impl SceneFile {
@@ -71,6 +79,8 @@ impl SceneFile {
             other_sky: self.other_sky.as_ref().map(Sky::complete),
             render: self.render.complete(),
             camera: self.camera.clone(),
+            units: self.units.clone(),
+            target: self.target.clone(),
         }
     }
 

@@ -1,0 +1,5 @@
+//! Numbers that are read off a finished picture.
+
+mod moments;
+
+pub use moments::Moments;
