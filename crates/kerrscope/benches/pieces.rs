@@ -99,7 +99,7 @@ fn pictures(criterion: &mut Criterion) {
     let scene = Scene::from_toml(text, Path::new("")).expect("a valid scene");
     let stage = Stage::new(&scene).expect("a scene without pictures");
     let (mut replay, mut tally) = (Replay::default(), Tally::default());
-    let mut film = Film::blank(stage.size(), &[], Level::best());
+    let mut film = Film::blank(stage.size(), None, &[], Level::best());
     for (k, light) in film.light.iter_mut().enumerate() {
         let pixel = [k as u32 % 480, k as u32 / 480];
         *light = stage.pixel(pixel, &mut replay, &mut tally).rgb.map(|c| c as f32);

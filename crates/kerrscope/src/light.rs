@@ -4,27 +4,40 @@ use std::iter::Sum;
 use std::ops::{Add, AddAssign, Mul};
 
 /// Radiance in linear light: the primaries and white point of sRGB (Rec. 709, D65),
-/// 1 = the white of the display before exposure. Components may exceed 1.
+/// 1 = the white of the display before exposure. Components may exceed 1. Beside it the physical radiance, of what has one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Light {
     /// Red, green, blue.
     pub rgb: [f64; 3],
+    /// Physical radiance: I_ν in W m⁻² Hz⁻¹ sr⁻¹ where the scene has a frequency, otherwise that of all frequencies in units of
+    /// Ṁ/M² per sr. 0 for what is drawn, as skies are.
+    pub intensity: f64,
+}
+
+/// The kinds of radiance.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Radiance {
+    /// I_ν at the frequency of the scene's units, W m⁻² Hz⁻¹ sr⁻¹.
+    Specific,
+    /// Of all frequencies, sr⁻¹ in units of Ṁ/M² (G = c = 1).
+    Bolometric,
 }
 
 impl Light {
     /// No light.
-    pub const DARK: Self = Self { rgb: [0.0; 3] };
+    pub const DARK: Self = Self::new([0.0; 3]);
 
-    /// Light of the given components.
+    /// Light of the given components, without a physical radiance.
     pub const fn new(rgb: [f64; 3]) -> Self {
-        Self { rgb }
+        Self { rgb, intensity: 0.0 }
     }
 }
 
 impl Add for Light {
     type Output = Self;
     fn add(self, other: Self) -> Self {
-        Self { rgb: std::array::from_fn(|i| self.rgb[i] + other.rgb[i]) }
+        let rgb = std::array::from_fn(|i| self.rgb[i] + other.rgb[i]);
+        Self { rgb, intensity: self.intensity + other.intensity }
     }
 }
 
@@ -43,7 +56,7 @@ impl Sum for Light {
 impl Mul<f64> for Light {
     type Output = Self;
     fn mul(self, factor: f64) -> Self {
-        Self { rgb: self.rgb.map(|c| c * factor) }
+        Self { rgb: self.rgb.map(|c| c * factor), intensity: self.intensity * factor }
     }
 }
 

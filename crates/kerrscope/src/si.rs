@@ -20,6 +20,10 @@ pub const STEFAN_BOLTZMANN: f64 = {
 pub const LUMINOUS_EFFICACY: f64 = 683.0;
 /// The Sun's mass parameter GM☉, nominal, m³ s⁻² (IAU 2015 B3).
 pub const SUN: f64 = 1.327_124_4e20;
+/// Constant of gravitation G, m³ kg⁻¹ s⁻² (CODATA 2018); needed where a mass is counted in kilograms only.
+pub const GRAVITATION: f64 = 6.674_30e-11;
+/// Julian year, s.
+pub const YEAR: f64 = 31_557_600.0;
 /// Astronomical unit, m (IAU 2012 B2).
 pub const ASTRONOMICAL_UNIT: f64 = 149_597_870_700.0;
 /// Parsec, m: the distance at which an astronomical unit is a second of arc wide, 648,000/π of them (IAU 2015 B2).

@@ -11,7 +11,7 @@
 //! angle θ off the middle it is wrong by θ²/3. What an observer near the hole sees is blueshifted and aberrated as
 //! they see it; data are better drawn from afar, or from infinity.
 
-use crate::si::{JANSKY, MICROARCSECOND, PARSEC, SPEED_OF_LIGHT, SUN};
+use crate::si::{GRAVITATION, JANSKY, MICROARCSECOND, PARSEC, SPEED_OF_LIGHT, STEFAN_BOLTZMANN, SUN, YEAR};
 
 /// The units that a scene gives, each of them only where it does.
 ///
@@ -57,6 +57,21 @@ impl Units {
     /// The angle θ_g of M on the sky in microarcseconds.
     pub fn microarcseconds(&self) -> Option<f64> {
         self.radians().map(|angle| angle / MICROARCSECOND)
+    }
+
+    /// Effective temperature in K, (F/σ)^¼, of a face whose flux is `flux` Ṁ/M² where `rate` solar masses accrete a year:
+    /// F = flux · Ṁc²/(GM/c²)².
+    ///
+    /// ```
+    /// use kerrscope::units::Units;
+    /// // A stellar hole near its Eddington rate is hot in X-rays.
+    /// let hole = Units { mass: Some(10.0), ..Units::default() };
+    /// let hottest = hole.temperature(1.37e-5, 2e-7).unwrap();
+    /// assert!((5e6..1e7).contains(&hottest), "{hottest}");
+    /// ```
+    pub fn temperature(&self, flux: f64, rate: f64) -> Option<f64> {
+        let power = rate * SUN / GRAVITATION / YEAR * SPEED_OF_LIGHT.powi(2);
+        self.metres().map(|metres| (flux * power / (metres * metres * STEFAN_BOLTZMANN)).powf(0.25))
     }
 
     /// Solid angle in sr of a square pixel whose side is `pixel` M.

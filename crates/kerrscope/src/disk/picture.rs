@@ -12,7 +12,7 @@ use crate::texture::Texture;
 /// A picture laid on a disk. Its alpha is the disk's opacity.
 ///
 /// ```
-/// use kerrscope::disk::{Disk, Mapping, Picture, Plane, Surface};
+/// use kerrscope::disk::{Disk, Mapping, Matter, Picture, Plane, Shifts, Surface};
 /// use kerrscope::texture::Texture;
 /// # let folder = tempfile::tempdir()?;
 /// # let path = folder.path().join("rings.png");
@@ -24,8 +24,12 @@ use crate::texture::Texture;
 ///     outer: 16.0,
 ///     plane: Plane::EQUATOR,
 ///     surface: Surface::Picture(picture),
+///     matter: Matter { orbits: None, shifts: Shifts::NONE },
 ///     tint: [1.0; 3],
 ///     opacity: 1.0,
+///     thin: false,
+///     orders: None,
+///     time: None,
 /// };
 /// let at = |radius| disk.sheet(&disk.hit(radius, [radius, 0.0, 0.0])).unwrap();
 /// assert_eq!(at(15.0).light.rgb, [1.0; 3]);

@@ -34,9 +34,13 @@ impl FalseColor {
             }
             Layer::Error | Layer::R | Layer::Depth => Scale::Logarithmic,
             Layer::Phi | Layer::SkyPhi => Scale::Cyclic { period: TAU },
-            Layer::Crossings | Layer::Windings | Layer::Steps | Layer::T | Layer::G | Layer::SkyTheta => {
-                Scale::Linear
-            }
+            Layer::Crossings
+            | Layer::Windings
+            | Layer::Steps
+            | Layer::T
+            | Layer::G
+            | Layer::Intensity
+            | Layer::SkyTheta => Scale::Linear,
         }
     }
 

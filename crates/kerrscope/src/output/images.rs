@@ -8,6 +8,7 @@ use std::borrow::Cow;
 
 use super::Provenance;
 use crate::camera::Camera;
+use crate::light::Radiance;
 use crate::measure::Moments;
 use crate::render::Film;
 use crate::scene::{Scene, Target};
@@ -20,15 +21,6 @@ pub struct Intensity<'a> {
     pub values: &'a [f64],
     /// What they are.
     pub radiance: Radiance,
-}
-
-/// The kinds of radiance.
-#[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Radiance {
-    /// I_ν at the frequency of the scene's units, W m⁻² Hz⁻¹ sr⁻¹.
-    Specific,
-    /// Of all frequencies, sr⁻¹ in units of Ṁ/M² (G = c = 1).
-    Bolometric,
 }
 
 /// An image of numbers.
@@ -87,7 +79,8 @@ impl<'a> ImageSet<'a> {
     /// What a scene's film holds.
     pub fn of(scene: &'a Scene, film: &'a Film) -> Self {
         let pixel = Camera::new(scene).ok().map(|camera| camera.pixel_size());
-        Self { scene, film, intensity: None, pixel: pixel.filter(|pixel| pixel.is_finite()) }
+        let intensity = film.radiance.map(|radiance| Intensity { values: &film.intensity, radiance });
+        Self { scene, film, intensity, pixel: pixel.filter(|pixel| pixel.is_finite()) }
     }
 
     /// The same with a physical intensity.

@@ -15,5 +15,5 @@ mod provenance;
 
 pub use error::FileError;
 pub use format::Format;
-pub use images::{Image, ImageSet, Intensity, Radiance};
+pub use images::{Image, ImageSet, Intensity};
 pub use provenance::{Provenance, ProvenanceFault};

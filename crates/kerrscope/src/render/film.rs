@@ -3,6 +3,7 @@
 use super::layer::Channel;
 use super::tally::Tally;
 use super::tile::{Area, Tile};
+use crate::light::Radiance;
 use crate::measure::Moments;
 use crate::spacetime::Level;
 
@@ -18,6 +19,10 @@ pub struct Film {
     /// Mean light of each pixel's rays: linear red, green and blue, see
     /// [`Light`](crate::light::Light).
     pub light: Vec<[f32; 3]>,
+    /// Mean physical radiance of each pixel's rays, if it has one; otherwise nothing.
+    pub intensity: Vec<f64>,
+    /// What it is.
+    pub radiance: Option<Radiance>,
     /// The data layers that the scene asks for.
     pub planes: Vec<Plane>,
     /// What is known of the rays.
@@ -37,11 +42,18 @@ pub struct Plane {
 
 impl Film {
     /// A film without light.
-    pub fn blank([width, height]: [u32; 2], channels: &[Channel], level: Level) -> Self {
+    pub fn blank(
+        [width, height]: [u32; 2],
+        radiance: Option<Radiance>,
+        channels: &[Channel],
+        level: Level,
+    ) -> Self {
         let area = width as usize * height as usize;
         let plane = |&channel| Plane { channel, values: vec![f32::NAN; area] };
         let planes = channels.iter().map(plane).collect();
-        Self { width, height, light: vec![[0.0; 3]; area], planes, tally: Tally::default(), level }
+        let intensity = vec![0.0; if radiance.is_some() { area } else { 0 }];
+        let light = vec![[0.0; 3]; area];
+        Self { width, height, light, intensity, radiance, planes, tally: Tally::default(), level }
     }
 
     /// The plane of a channel.
@@ -59,6 +71,9 @@ impl Film {
         for number in 0..height {
             let from = number * width..(number + 1) * width;
             self.light[row(number)].copy_from_slice(&tile.light[from.clone()]);
+            if self.radiance.is_some() {
+                self.intensity[row(number)].copy_from_slice(&tile.intensity[from.clone()]);
+            }
             for (plane, values) in self.planes.iter_mut().zip(tile.values.chunks_exact(width * height)) {
                 plane.values[row(number)].copy_from_slice(&values[from.clone()]);
             }

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// Image orders that [`Layer::R`], [`Layer::Phi`], [`Layer::T`] and [`Layer::G`] are given for.
+/// Image orders that [`Layer::R`], [`Layer::Phi`], [`Layer::T`], [`Layer::G`] and [`Layer::Intensity`] are given for.
 pub const ORDERS: u8 = 3;
 
 /// A data layer: a property of the ray through the centre of each pixel. It is not a mean over the
@@ -41,6 +41,9 @@ pub enum Layer {
     /// Redshift factor ν_camera/ν_emitter of matter at crossing n on a circular geodesic in the
     /// disk's sense; none within the ISCO, nor where the disk's plane holds no such geodesic.
     G,
+    /// Physical radiance that a disk which shines by physics sends at crossing n, whatever is in front of it; none beside
+    /// it.
+    Intensity,
     /// Polar angle of the direction that light comes from.
     SkyTheta,
     /// Azimuth of the direction that light comes from, unwrapped along the ray.
@@ -61,7 +64,7 @@ pub struct Channel {
 
 impl Layer {
     /// Every layer.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Fate,
         Self::Crossings,
         Self::Windings,
@@ -71,6 +74,7 @@ impl Layer {
         Self::Phi,
         Self::T,
         Self::G,
+        Self::Intensity,
         Self::SkyTheta,
         Self::SkyPhi,
         Self::Depth,
@@ -88,6 +92,7 @@ impl Layer {
             Self::Phi => "phi",
             Self::T => "t",
             Self::G => "g",
+            Self::Intensity => "intensity",
             Self::SkyTheta => "sky_theta",
             Self::SkyPhi => "sky_phi",
             Self::Depth => "depth",
@@ -96,7 +101,7 @@ impl Layer {
 
     /// Whether there is one for each image order.
     pub const fn has_orders(self) -> bool {
-        matches!(self, Self::R | Self::Phi | Self::T | Self::G)
+        matches!(self, Self::R | Self::Phi | Self::T | Self::G | Self::Intensity)
     }
 
     /// Its channels.
@@ -109,6 +114,7 @@ impl Layer {
     pub const fn unit(self) -> &'static str {
         match self {
             Self::Fate | Self::Crossings | Self::Windings | Self::Steps | Self::G => "",
+            Self::Intensity => "Mdot/M^2 sr-1, or W m-2 Hz-1 sr-1",
             Self::Error => "rad, or relative radius",
             Self::R | Self::T | Self::Depth => "M",
             Self::Phi | Self::SkyTheta | Self::SkyPhi => "rad",
@@ -127,6 +133,7 @@ impl Layer {
             Self::Phi => "azimuth φ",
             Self::T => "elapsed time t",
             Self::G => "redshift factor g",
+            Self::Intensity => "intensity",
             Self::SkyTheta => "polar angle θ of the source",
             Self::SkyPhi => "azimuth φ of the source",
             Self::Depth => "depth",
@@ -165,7 +172,7 @@ mod tests {
     #[test]
     fn channels_have_names_of_their_own() {
         let all: Vec<_> = Layer::ALL.into_iter().flat_map(Layer::channels).collect();
-        assert_eq!(all.len(), 20);
+        assert_eq!(all.len(), 23);
         let mut names: Vec<_> = all.iter().map(|channel| channel.name()).collect();
         names.sort();
         names.dedup();

@@ -132,8 +132,8 @@ impl Legs {
             self.tracer.trace_among(&ray, around.query, &self.world, path);
             tally.count(path.steps, path.error_estimate, path.fate == Fate::StepLimit);
             if let Some(disk) = around.disk {
-                for crossing in &path.crossings {
-                    if let Some(sheet) = disk.sheet(&disk.hit(crossing.r, crossing.position)) {
+                for hit in disk.hits(&ray, path) {
+                    if let Some(sheet) = disk.sheet(&hit) {
                         gathered.add(sheet.light);
                         gathered.dim([1.0 - sheet.opacity; 3]);
                     }

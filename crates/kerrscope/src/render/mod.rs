@@ -74,14 +74,16 @@ pub enum Stopped {
 /// If it is stopped, or the checkpoint cannot be used. What was finished by then is in the checkpoint.
 pub fn draw(stage: &Stage, watch: &Watch<'_>) -> Result<Film, Stopped> {
     let tiling = Tiling::of(stage);
-    let mut film = Film::blank(stage.size(), stage.channels(), stage.level());
+    let mut film = Film::blank(stage.size(), stage.radiance(), stage.channels(), stage.level());
     let mut done = vec![false; tiling.count() as usize];
     if let Some(checkpoint) = watch.checkpoint {
         let mut rays = 0;
         checkpoint.parts(|number, contents| {
             if let Some(done @ false) = done.get_mut(number as usize) {
                 let area = tiling.area(number);
-                if let Some(tile) = Tile::decode(contents, area, stage.channels().len()) {
+                if let Some(tile) =
+                    Tile::decode(contents, area, stage.channels().len(), stage.radiance().is_some())
+                {
                     film.place(&tile, area);
                     *done = true;
                     rays += area.rays(stage);

@@ -1,5 +1,7 @@
 //! What a ray says for the data layers.
 
+use std::sync::Arc;
+
 use super::layer::{Channel, Layer, ORDERS};
 use crate::disk::Disk;
 use crate::scene::Scene;
@@ -13,7 +15,7 @@ pub(super) struct Probe {
     channels: Vec<Channel>,
     query: Query,
     /// What sends light in the plane, where that is known.
-    matter: Option<Circular>,
+    matter: Option<Arc<Circular>>,
 }
 
 impl Probe {
@@ -28,9 +30,13 @@ impl Probe {
         };
         let [nx, ny, nz] = query.plane;
         // About −z a disk turns against the spin; its orbits are those of the mirrored hole.
-        let level = |spin: f64| spin == 0.0 || nx.hypot(ny) <= 1e-12;
+        let in_equator = nx.hypot(ny) <= 1e-12;
+        let level = |spin: f64| spin == 0.0 || in_equator;
+        let round = in_equator || scene.spacetime.spin() == Some(0.0);
         let matter = scene.spacetime.spin().filter(|spin| level(*spin));
-        let matter = matter.map(|spin| Circular::kerr(spin * nz.signum(), Sense::Prograde));
+        let matter = matter.map(|spin| Arc::new(Circular::kerr(spin * nz.signum(), Sense::Prograde)));
+        // A disk knows how its matter turns.
+        let matter = scene.disk.as_ref().and_then(|disk| disk.orbits.clone()).filter(|_| round).or(matter);
         Self { channels: layers.iter().copied().flat_map(Layer::channels).collect(), query, matter }
     }
 
@@ -71,6 +77,12 @@ impl Probe {
             Layer::Phi => crossing().map_or(f64::NAN, |c| c.phi),
             Layer::T => crossing().map_or(f64::NAN, |c| c.elapsed),
             Layer::G => crossing().zip(ray).and_then(|(c, ray)| self.redshift(ray, c)).unwrap_or(f64::NAN),
+            Layer::Intensity => {
+                let order = usize::from(channel.order.unwrap_or_default());
+                let hit = disk.zip(ray).and_then(|(disk, ray)| disk.hits(ray, path).nth(order));
+                let sheet = disk.zip(hit).and_then(|(disk, hit)| disk.sheet(&hit));
+                sheet.map_or(f64::NAN, |sheet| sheet.light.intensity)
+            }
             Layer::SkyTheta => path.direction.map_or(f64::NAN, |[theta, _]| theta),
             Layer::SkyPhi => path.direction.map_or(f64::NAN, |[_, phi]| phi),
             Layer::Depth => ray.map_or(f64::INFINITY, |ray| depth(ray, path, disk)),
@@ -87,8 +99,8 @@ impl Probe {
 /// How far away the disk is where the ray first meets it, or the thing behind which it does not.
 fn depth(ray: &Ray, path: &Path, disk: Option<&Disk>) -> f64 {
     let met = disk.and_then(|disk| {
-        let seen = |r, position| disk.sheet(&disk.hit(r, position)).is_some_and(|sheet| sheet.opacity > 0.0);
-        path.crossings.iter().find(|c| seen(c.r, c.position)).map(|c| c.position)
+        let seen = |hit| disk.sheet(&hit).is_some_and(|sheet| sheet.opacity > 0.0 || disk.thin);
+        disk.hits(ray, path).position(seen).map(|order| path.crossings[order].position)
     });
     let Some(position) = met.or(path.hit.map(|hit| hit.position)) else { return f64::INFINITY };
     if ray.side == Side::Ingoing {

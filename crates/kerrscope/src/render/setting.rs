@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use super::legs::{Legs, Surface as ThingSurface};
 use super::tracer::obstacle_tracer;
-use crate::disk::{Disk, Picture, Plane, Ring, Surface};
+use crate::disk::{Disk, Emission, Matter, Picture, Plane, Ring, Surface};
 use crate::display::srgb;
 use crate::light::Light;
 use crate::material::{Finish, Material, Noise, Pattern};
@@ -25,12 +25,20 @@ pub(super) fn disk(disk: &scene::Disk) -> Result<Disk, TextureError> {
         scene::Surface::Picture { path, mapping } => {
             Surface::Picture(Picture { texture: Texture::load(path)?, mapping: *mapping })
         }
+        scene::Surface::Shining { profile, limb, glow } => {
+            let edges = [disk.inner, disk.outer];
+            Surface::Shining(Box::new(Emission::new(profile.clone(), *limb, *glow, edges)))
+        }
     };
     Ok(Disk {
         inner: disk.inner,
         outer: disk.outer,
         plane: Plane::new(disk.tilt, disk.node),
         surface,
+        matter: Matter { orbits: disk.orbits.clone(), shifts: disk.shifts },
+        thin: disk.thin,
+        orders: disk.orders.clone(),
+        time: disk.time,
         tint: disk.color.map(|c| srgb::decode(c) * disk.brightness),
         opacity: disk.opacity,
     })

@@ -7,8 +7,8 @@ use super::setting;
 use super::tracer::tracer;
 use super::{Channel, Sampler, Tally};
 use crate::camera::Camera;
-use crate::disk::{Disk, DiskHit, Plane};
-use crate::light::{Beam, Light};
+use crate::disk::{Disk, DiskHit, Plane, Surface};
+use crate::light::{Beam, Light, Radiance};
 use crate::random::Stream;
 use crate::scene::Scene;
 use crate::sky::{Sky, footprint, towards};
@@ -100,6 +100,7 @@ impl Stage {
         let query = Query {
             plane: disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane).normal(),
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
+            elapsed: disk.as_ref().is_some_and(|disk| disk.time.is_some()),
             ..Query::default()
         };
         let pixel = setting::pixel_angle(scene);
@@ -152,6 +153,15 @@ impl Stage {
     /// Rays of a pixel: its samples, and one more if there are data layers.
     pub fn rays_per_pixel(&self) -> u32 {
         self.samples + u32::from(!self.channels().is_empty())
+    }
+
+    /// What the physical radiance of the picture is, if it has one: that of a disk that shines by physics. With things in the
+    /// scene it has none, for their colours are drawn.
+    pub fn radiance(&self) -> Option<Radiance> {
+        match self.disk.as_ref().filter(|_| self.legs.is_none())?.surface {
+            Surface::Shining(ref emission) => Some(emission.radiance()),
+            _ => None,
+        }
     }
 
     /// The data layers that the scene asks for.
@@ -362,11 +372,13 @@ impl Stage {
     /// Adds what is seen at the points of a replay to its views, and forgets the points.
     fn view(&self, replay: &mut Replay, tally: &mut Tally) {
         self.follow(&self.query, replay, tally);
-        let mut paths = replay.paths.iter();
+        let mut paths = replay.rays.iter().zip(&replay.paths);
         for arrives in &replay.arrives {
-            let path = if *arrives { paths.next() } else { None };
-            let crossings = path.iter().flat_map(|path| &path.crossings);
-            let hits = self.disk.iter().flat_map(|disk| crossings.clone().map(|c| disk.hit(c.r, c.position)));
+            let (ray, path) = if *arrives { paths.next() } else { None }.unzip();
+            let hits = self
+                .disk
+                .iter()
+                .flat_map(|disk| ray.into_iter().zip(path).flat_map(move |(ray, path)| disk.hits(ray, path)));
             let origin = path.and_then(|path| {
                 let [theta, phi] = path.direction?;
                 Some(Origin { direction: towards(theta, phi), other_side: path.other_side })

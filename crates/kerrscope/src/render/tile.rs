@@ -35,6 +35,8 @@ pub(super) struct Area {
 pub(super) struct Tile {
     /// Light of its pixels, along the rows.
     pub(super) light: Vec<[f32; 3]>,
+    /// Physical radiance of its pixels, or nothing.
+    pub(super) intensity: Vec<f64>,
     /// Values of its pixels, channel after channel.
     pub(super) values: Vec<f32>,
     pub(super) tally: Tally,
@@ -86,7 +88,14 @@ impl Tile {
         let all = || (top..top + height).flat_map(|y| (left..left + width).map(move |x| [x, y]));
         let mut tally = Tally::default();
         let mut light = Vec::with_capacity(pixels);
-        let mut keep = |seen: Light| light.push(seen.rgb.map(|c| c as f32));
+        let mut intensity = Vec::new();
+        let shines = stage.radiance().is_some();
+        let mut keep = |seen: Light| {
+            light.push(seen.rgb.map(|c| c as f32));
+            if shines {
+                intensity.push(seen.intensity);
+            }
+        };
         let mut values = vec![f32::NAN; channels * pixels];
         if channels > 0 {
             let mut pixel = 0;
@@ -101,7 +110,7 @@ impl Tile {
             }
             None => stage.pixels(all(), replay, &mut tally, &mut keep),
         }
-        Self { light, values, tally }
+        Self { light, intensity, values, tally }
     }
 
     /// As a checkpoint keeps it.
@@ -109,11 +118,15 @@ impl Tile {
         postcard::to_stdvec(self).unwrap_or_default()
     }
 
-    /// From what a checkpoint kept; none if that is not a tile of so many pixels and channels.
-    pub(super) fn decode(bytes: &[u8], area: Area, channels: usize) -> Option<Self> {
+    /// From what a checkpoint kept; none if that is not a tile of so many pixels and channels, with a physical radiance or
+    /// without.
+    pub(super) fn decode(bytes: &[u8], area: Area, channels: usize, shines: bool) -> Option<Self> {
         let pixels = (area.width * area.height) as usize;
         let tile: Self = postcard::from_bytes(bytes).ok()?;
-        (tile.light.len() == pixels && tile.values.len() == pixels * channels).then_some(tile)
+        let whole = tile.light.len() == pixels
+            && tile.intensity.len() == if shines { pixels } else { 0 }
+            && tile.values.len() == pixels * channels;
+        whole.then_some(tile)
     }
 }
 
@@ -143,9 +156,10 @@ mod tests {
         let mut tally = Tally::default();
         tally.count(12, 3e-9, false);
         let light = vec![[0.1, f32::MIN_POSITIVE, 3e38]; 6];
-        let tile = Tile { light, values: vec![1.5; 12], tally };
+        let tile = Tile { light, intensity: Vec::new(), values: vec![1.5; 12], tally };
         let area = Area { left: 0, top: 0, width: 3, height: 2 };
-        assert_eq!(Tile::decode(&tile.encode(), area, 2), Some(tile));
-        assert_eq!(Tile::decode(b"nonsense", area, 2), None);
+        assert_eq!(Tile::decode(&tile.encode(), area, 2, true), None);
+        assert_eq!(Tile::decode(&tile.encode(), area, 2, false), Some(tile));
+        assert_eq!(Tile::decode(b"nonsense", area, 2, false), None);
     }
 }

@@ -147,7 +147,7 @@ impl Scene {
     pub fn pictures(&self) -> impl Iterator<Item = &Path> {
         let disk = self.disk.as_ref().and_then(|disk| match &disk.surface {
             Surface::Picture { path, .. } => Some(path.as_path()),
-            Surface::Ring { .. } => None,
+            Surface::Ring { .. } | Surface::Shining { .. } => None,
         });
         let skies = [Some(&self.sky), self.other_sky.as_ref()].into_iter().flatten();
         let skies = skies.filter_map(|sky| match &sky.picture {

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use super::file::Coordinates;
-use crate::disk::Mapping;
+use crate::disk::{Glow, Limb, Mapping, Profile, Shifts};
 use crate::display::{self, Depth, FalseColor, Picture};
 use crate::material::Finish;
 use crate::objects::Shape;
 use crate::render::Film;
 use crate::render::Layer;
 use crate::sky::Orientation;
+use kerrscope_spacetime::emitter::Circular;
 use kerrscope_spacetime::metric::{LineElement, Text};
 use kerrscope_spacetime::observer::{
     Drift, Motion, Observer as Eye, ObserverError, Patch, Place, clearance, clearance_in_metric,
@@ -148,6 +149,25 @@ pub struct Disk {
     pub brightness: f64,
     /// Factor on its opacity, 0 to 1; its light goes down with it.
     pub opacity: f64,
+    /// Whether it holds nothing back and sends all of its light.
+    pub thin: bool,
+    /// The orbits of its matter, where they are needed and there are some.
+    pub orbits: Option<Arc<Circular>>,
+    /// What of the shift of its light is shown.
+    pub shifts: Shifts,
+    /// The image orders that are seen, if not all.
+    pub orders: Option<Vec<u32>>,
+    /// Time of the camera's clock at which a pattern that turns is seen, M.
+    pub time: Option<f64>,
+}
+
+impl Disk {
+    /// Whether what is seen of it depends on more of a ray than where it crosses the plane, so that nothing can be
+    /// interpolated between rays.
+    pub fn needs_rays(&self) -> bool {
+        let shines = matches!(self.surface, Surface::Shining { .. });
+        shines || !self.shifts.is_none() || self.orders.is_some() || self.time.is_some()
+    }
 }
 
 /// What a disk looks like.
@@ -164,6 +184,15 @@ pub enum Surface {
         path: PathBuf,
         /// How it is laid on the disk.
         mapping: Mapping,
+    },
+    /// Light by physics.
+    Shining {
+        /// How the flux depends on the radius.
+        profile: Profile,
+        /// How bright it is at an angle.
+        limb: Limb,
+        /// Which light is shown.
+        glow: Glow,
     },
 }
 

@@ -49,4 +49,12 @@ impl Sense {
             Self::Retrograde => -1.0,
         }
     }
+
+    /// The other one.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Prograde => Self::Retrograde,
+            Self::Retrograde => Self::Prograde,
+        }
+    }
 }

@@ -107,8 +107,14 @@ impl<'a> Painter<'a> {
             views.clear();
             for sample in 0..x.len() {
                 let number = |row: usize| sights.numbers[row * x.len() + sample];
-                let hits = (0..sights.sheets)
-                    .map(|sheet| DiskHit { radius: number(2 * sheet), azimuth: number(2 * sheet + 1) });
+                let hits = (0..sights.sheets).map(|sheet| DiskHit {
+                    radius: number(2 * sheet),
+                    azimuth: number(2 * sheet + 1),
+                    // Disks that ask for more are not interpolated.
+                    order: 0,
+                    light: None,
+                    elapsed: f64::NAN,
+                });
                 let first = 2 * sights.sheets;
                 let direction =
                     sights.directed.then(|| [number(first), number(first + 1), number(first + 2)]);

@@ -21,7 +21,7 @@ use serde::Serialize;
 use super::fault::{Collector, one_line};
 use super::file::{self, Coordinates, DiskModel, SceneFile};
 use super::tree::Node;
-use super::valid::{Engine, Method, Render, Spacetime};
+use super::valid::{Disk, Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
 use crate::render::Layer;
 
@@ -48,14 +48,16 @@ pub(super) fn build(
     let spacetime;
     (spacetime, file.spacetime) = builder.spacetime(&file.spacetime);
     let observer = builder.observer(&file, &spacetime);
+    let disk = builder.disk(&file.disk, &spacetime, (&file.units).into());
+    let rays = disk.as_ref().is_some_and(Disk::needs_rays);
     Scene {
         observer,
         screen: builder.screen(&file.screen, &spacetime, observer),
-        disk: builder.disk(&file.disk, &spacetime),
+        disk,
         objects: builder.objects(&file.object, &spacetime),
         sky: builder.sky(&file.sky, "sky"),
         other_sky: builder.other_sky(&file, &spacetime),
-        render: builder.render(&file, &spacetime, observer.place),
+        render: builder.render(&file, &spacetime, observer.place, rays),
         display: builder.display(&file.camera.display),
         units: (&file.units).into(),
         target: builder.target(&file.target),
@@ -102,7 +104,7 @@ impl Builder<'_> {
         self.faults.push(&place, || (what.into(), mend.into()));
     }
 
-    fn render(&mut self, scene: &SceneFile, spacetime: &Spacetime, place: Place) -> Render {
+    fn render(&mut self, scene: &SceneFile, spacetime: &Spacetime, place: Place, needs_rays: bool) -> Render {
         let (file, shown) = (&scene.render, scene.camera.display.layer);
         let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
@@ -148,7 +150,14 @@ impl Builder<'_> {
                 "remove `render.adaptive`, or the things",
             );
         }
-        let adaptive = !things && file.adaptive.unwrap_or(pays);
+        if needs_rays && file.adaptive == Some(true) {
+            self.fault(
+                &["render.adaptive", "disk.model"],
+                "a disk whose light is shifted, or seen by orders or at a time, is not interpolated between rays",
+                "remove `render.adaptive`",
+            );
+        }
+        let adaptive = !things && !needs_rays && file.adaptive.unwrap_or(pays);
         Render {
             width: file.width,
             height: file.height,

@@ -13,7 +13,8 @@ mod sky;
 mod spacetime;
 mod units;
 
-pub use disk::{Disk, DiskModel, Inner, Isco};
+pub(super) use disk::USES as DISK_USES;
+pub use disk::{Disk, DiskModel, Inner, Isco, Shown, Turns};
 pub use object::{Object, ObjectMotion, ObjectMotionName, ShapeName, Texture, TextureKind};
 pub(super) use object::{SHAPE_USES as OBJECT_SHAPE_USES, TEXTURE_USES as OBJECT_TEXTURE_USES};
 pub use observer::{Motion, MotionName, Observer, RelativeTo, Velocity};
