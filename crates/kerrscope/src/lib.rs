@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod disk;
 pub mod display;
 pub mod light;
+pub mod line;
 pub mod material;
 mod noise;
 pub mod objects;
