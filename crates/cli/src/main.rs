@@ -4,6 +4,7 @@
 //! 2 the input was wrong, 130 interrupted.
 
 mod bench;
+mod line;
 mod manual;
 mod orbits;
 mod progress;
@@ -56,6 +57,8 @@ enum Command {
     Orbits(orbits::Arguments),
     /// The critical curve: the edge of a hole's shadow
     Shadow(shadow::Arguments),
+    /// The profile of a spectral line from a disk
+    Line(line::Arguments),
     /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
     Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
@@ -94,6 +97,7 @@ fn main() -> ExitCode {
         Command::Trace(a) => trace::run(&a),
         Command::Orbits(a) => orbits::run(&a),
         Command::Shadow(a) => shadow::run(&a),
+        Command::Line(a) => line::run(&a),
         Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),

@@ -7,6 +7,7 @@ pub mod checkpoint;
 pub mod disk;
 pub mod display;
 pub mod light;
+pub mod line;
 pub mod material;
 pub mod measure;
 mod noise;

@@ -1,9 +1,10 @@
 //! Reference numbers, computed anew by the integrator and compared with their sources.
 //!
-//! Each check takes another route than its source: published closed forms against traced rays.
+//! Each check takes another route than its source: published closed forms against traced rays and metrics' components.
 
 mod crossings;
 mod deflection;
+mod disk;
 mod orbits;
 mod shadow;
 
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Check> {
     checks.extend(shadow::checks());
     checks.extend(deflection::checks());
     checks.extend(crossings::checks());
+    checks.extend(disk::checks());
     checks
 }
 

@@ -31,7 +31,7 @@ impl Departure {
 
     /// What an observer without radial motion and motion across the plane measures, per energy: p_r √g^rr, p_z √g^zz.
     /// The first is what is left by g^{μν} p_μ p_ν = 0.
-    pub(super) fn legs(&self, equator: &Equator) -> [f64; 2] {
+    pub fn legs(&self, equator: &Equator) -> [f64; 2] {
         let photon = [1.0, self.lambda];
         let across = self.normal / equator.zz.sqrt();
         let radial = (equator.product(photon, photon) - across * across).max(0.0).sqrt();
