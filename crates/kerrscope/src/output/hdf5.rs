@@ -47,8 +47,8 @@ pub fn encode(to: impl Write, set: &ImageSet<'_>) -> io::Result<()> {
             .with_chunks(&[height.min(CHUNK), width.min(CHUNK)])
             .with_shuffle()
             .with_deflate(4)
-            .set_attr("title", AttrValue::String(image.title))
-            .set_attr("unit", AttrValue::String(image.unit.to_owned()));
+            .set_attr("title", AttrValue::VarLenString(image.title))
+            .set_attr("unit", AttrValue::VarLenString(image.unit.to_owned()));
     }
     for (name, value) in attributes(set) {
         file.set_attr(name, value);
@@ -70,8 +70,8 @@ fn attributes(set: &ImageSet<'_>) -> Vec<(&'static str, AttrValue)> {
         ("distance_pc", units.distance),
         ("frequency_hz", units.frequency),
         ("theta_g_uas", units.microarcseconds()),
-        ("right_ascension_deg", Some(target.right_ascension.to_degrees())),
-        ("declination_deg", Some(target.declination.to_degrees())),
+        ("right_ascension_deg", Some(target.right_ascension)),
+        ("declination_deg", Some(target.declination)),
         ("mjd", Some(target.mjd)),
     ];
     let words = [
@@ -80,7 +80,7 @@ fn attributes(set: &ImageSet<'_>) -> Vec<(&'static str, AttrValue)> {
         ("instruction_level", made.instruction_level),
     ];
     let numbers = numbers.into_iter().filter_map(|(name, value)| Some((name, AttrValue::F64(value?))));
-    let words = words.into_iter().map(|(name, text)| (name, AttrValue::String(text)));
+    let words = words.into_iter().map(|(name, text)| (name, AttrValue::VarLenString(text)));
     numbers.chain(words).chain([("seed", AttrValue::U64(made.seed))]).collect()
 }
 
