@@ -7,7 +7,7 @@ use std::io::Cursor;
 use std::path::Path;
 
 use kerrscope::light::Sheet;
-use kerrscope::output::{Provenance, exr, png};
+use kerrscope::output::{Provenance, exr, fits, hdf5, png};
 use kerrscope::scene::{Faults, Scene};
 use kerrscope::texture::{Sphere, Texture};
 
@@ -72,12 +72,14 @@ fn examine_sheet(sheet: &Sheet) {
     assert!((0.0..=1.0).contains(&sheet.opacity), "{sheet:?}");
 }
 
-/// A PNG or OpenEXR file with the record of how it was made, or that record as text.
+/// A PNG, OpenEXR, FITS or HDF5 file with the record of how it was made, or that record as text.
 pub fn provenance(bytes: &[u8]) {
     let from_png = png::decode_provenance(Cursor::new(bytes), Path::new("picture.png")).ok();
     let from_exr = exr::decode_provenance(bytes, Path::new("picture.exr")).ok();
+    let from_fits = fits::decode_provenance(Cursor::new(bytes), Path::new("picture.fits")).ok();
+    let from_hdf5 = hdf5::decode_provenance(bytes.to_vec(), Path::new("picture.h5")).ok();
     let from_text = std::str::from_utf8(bytes).ok().and_then(|text| text.parse::<Provenance>().ok());
-    for made in [from_png, from_exr, from_text].into_iter().flatten() {
+    for made in [from_png, from_exr, from_fits, from_hdf5, from_text].into_iter().flatten() {
         assert_eq!(made.to_string().parse().as_ref(), Ok(&made));
         // The record is given as a scene.
         examine(&Scene::from_record("picture", &made.scene_toml, &[], Path::new("")));

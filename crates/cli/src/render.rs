@@ -6,7 +6,7 @@ use crate::source::Source;
 use crate::{Format, print, print_json};
 use indicatif::ProgressBar;
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
-use kerrscope::output::Format as FileFormat;
+use kerrscope::output::{Format as FileFormat, ImageSet};
 use kerrscope::render::{Film, Interpolation as Interpolated, Stage, Stopped, Watch, draw};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
@@ -22,13 +22,14 @@ use tracing::info;
     kerrscope render scenes/thesis-4.8.toml -o hole.png\n  \
     kerrscope render --set spacetime.spin=0.5 --set render.width=1920 --set render.height=1080\n  \
     kerrscope render -o hole.png -o hole.exr --set 'render.layers=[\"g\", \"r\"]'\n  \
+    kerrscope render scenes/thesis-4.8.toml -o hole.fits --set units.mass=6.5e9 --set units.distance=16.8e6\n  \
     kerrscope render --layer g --order 1 --colormap inferno -o shift.png\n  \
     kerrscope render --set render.samples=1024 --resume   # again after an interruption")]
 pub struct Arguments {
     #[command(flatten)]
     source: Source,
-    /// File to write, .png or .exr; may be given several times. Without it, the scene's name with
-    /// .png here
+    /// File to write, .png, .exr, .fits or .h5; may be given several times. Without it, the scene's name
+    /// with .png here
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
     /// Show a data layer in false colours instead of the light (as --set camera.display.layer=…): fate,
@@ -70,6 +71,7 @@ struct Output {
     total_flux_jy: Option<f64>,
     centroid: Option<[f64; 2]>,
     size: Option<[f64; 2]>,
+    length_unit: &'static str,
     error_estimate: Option<f64>,
     error_estimate_99: Option<f64>,
     error_estimate_max: Option<f64>,
@@ -116,7 +118,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     if quiet && arguments.format == Format::Text {
         return Ok(());
     }
-    report(arguments, &stage, &film, &outputs, start.elapsed().as_secs_f64())
+    report(arguments, &scene, &stage, &film, &outputs, start.elapsed().as_secs_f64())
 }
 
 /// The files to write, every one of a format that is known.
@@ -133,7 +135,7 @@ fn outputs(arguments: &Arguments) -> Result<Vec<PathBuf>, Failure> {
         .output
         .iter()
         .filter(|path| FileFormat::of(path).is_none())
-        .map(|path| format!("{}: pictures can be written as .png or .exr", path.display()))
+        .map(|path| format!("{}: pictures can be written as .png, .exr, .fits or .h5", path.display()))
         .collect();
     if wrong.is_empty() { Ok(arguments.output.clone()) } else { Err(Failure::Input(wrong.join("\nerror: "))) }
 }
@@ -190,25 +192,29 @@ fn draw_in_pool(
 
 fn report(
     arguments: &Arguments,
+    scene: &Scene,
     stage: &Stage,
     film: &Film,
     outputs: &[PathBuf],
     wall_s: f64,
 ) -> Result<(), Failure> {
     let tally = &film.tally;
+    let images = ImageSet::of(scene, film);
+    let theta = scene.units.microarcseconds();
     let names: Vec<String> = outputs.iter().map(|path| path.display().to_string()).collect();
     if arguments.format == Format::Json {
-        let pixel = stage.camera().pixel_size();
-        let moments = film.moments(pixel).filter(|_| pixel.is_finite());
+        let pixel = images.pixel().map(|pixel| pixel * theta.unwrap_or(1.0));
+        let moments = pixel.and_then(|pixel| images.moments(pixel));
         return print_json(&Output {
             outputs: names,
             wall_s,
             rays: stage.rays(),
             rays_traced: tally.rays,
             rays_given_up: tally.given_up,
-            total_flux_jy: None,
+            total_flux_jy: images.total_flux(),
             centroid: moments.map(|m| m.centroid),
             size: moments.map(|m| m.size),
+            length_unit: if theta.is_some() { "uas" } else { "M" },
             error_estimate: tally.quantile(0.5),
             error_estimate_99: tally.quantile(0.99),
             error_estimate_max: tally.quantile(1.0).map(|_| tally.worst),
@@ -230,6 +236,11 @@ fn report(
         film.height,
         stage.rays()
     ))?;
+    if let (Some(theta), Some(pixel)) = (theta, images.pixel()) {
+        let [width, height] = images.size().map(|pixels| f64::from(pixels) * pixel * theta);
+        let flux = images.total_flux().map_or_else(String::new, |flux| format!(", {flux:.4} Jy"));
+        print(&format!("On the sky {width:.4} × {height:.4} µas; M is {theta:.4} µas{flux}"))?;
+    }
     let Interpolated { samples, compared, missed, worst } = tally.interpolation;
     if samples > 0 {
         let missed = if missed > 0 { format!(", but {missed} that end otherwise") } else { String::new() };

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// A scene named on the command line, and what is to be changed in it.
 #[derive(clap::Args, Debug, Default)]
 pub struct Source {
-    /// Scene file (TOML), or a picture that kerrscope made (PNG, EXR), for the scene in it; without
+    /// Scene file (TOML), or a picture that kerrscope made (PNG, EXR, FITS, HDF5), for the scene in it; without
     /// one, the built-in scene
     pub scene: Option<PathBuf>,
     /// Override a key of the scene; may be given several times

@@ -51,6 +51,42 @@ fn a_picture_remakes_itself() {
 }
 
 #[test]
+fn a_file_for_science_remakes_itself_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments =
+        ["-o", "a.fits", "-o", "a.h5", "--set", "units.mass=6.5e9", "--set", "units.distance=16.8e6"];
+    let output = run(folder.path(), &small(&arguments));
+    assert!(output.status.success());
+    // 27 pixels of 2 · 30.4 tan 25° M, and 3.818993 µas for each M.
+    let said = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(said.contains("On the sky 192.4875 × 108.2742 µas; M is 3.8190 µas\n"), "{said}");
+    for name in ["a.fits", "a.h5"] {
+        assert!(run(folder.path(), &["render", name, "-o", "b.fits", "-o", "b.h5"]).status.success());
+        let bytes = |name: &str| fs::read(folder.path().join(name)).unwrap();
+        assert!(bytes("a.fits") == bytes("b.fits") && bytes("a.h5") == bytes("b.h5"), "{name}");
+    }
+}
+
+#[test]
+fn json_speaks_of_the_sky_where_it_can() {
+    let folder = tempfile::tempdir().unwrap();
+    let arguments = |more: &[&'static str]| small(&[&["-o", "a.png", "--format", "json"], more].concat());
+    let plain = json(folder.path(), &arguments(&[]));
+    let units =
+        ["--set", "units.mass=6.5e9", "--set", "units.distance=16.8e6", "--set", "units.frequency=230e9"];
+    let scaled = json(folder.path(), &arguments(&units));
+    assert_eq!((&plain["length_unit"], &scaled["length_unit"]), (&"M".into(), &"uas".into()));
+    for key in ["centroid", "size"] {
+        for k in 0..2 {
+            let [m, uas] = [&plain, &scaled].map(|value| value[key][k].as_f64().unwrap());
+            assert!((uas / m / 3.818993252 - 1.0).abs() < 1e-9, "{key}: {m} M, {uas} µas");
+        }
+    }
+    // The built-in disk is drawn: it has no flux.
+    assert!(scaled["total_flux_jy"].is_null());
+}
+
+#[test]
 fn json_names_what_was_done() {
     let folder = tempfile::tempdir().unwrap();
     let arguments =

@@ -49,12 +49,10 @@ fn encode_plainly(to: impl Write, set: &ImageSet<'_>) -> Result<(), FitsError> {
     let provenance = set.provenance();
     let mut primary = Header::new();
     about(&mut primary, set)?;
-    let note = format!(
-        "Rendered by kerrscope {}; the whole record is in the extension {RECORD}.",
-        provenance.version
-    );
-    primary.push_commentary(CommentaryName::HISTORY, &ascii(&note))?;
-
+    let by = format!("Rendered by kerrscope {}. The scene and more: extension {RECORD}.", provenance.version);
+    for line in lines(&by) {
+        primary.push_commentary(CommentaryName::HISTORY, &line)?;
+    }
     let [width, height] = set.size().map(|size| size as usize);
     // FITS counts from the lower left corner.
     let from_below = |image: &Image<'_>| -> Vec<f64> {
@@ -114,14 +112,14 @@ fn describe(header: &mut Header, image: &Image<'_>) -> Result<(), FitsError> {
 
 /// Where the images are, when, and what of.
 fn about(header: &mut Header, set: &ImageSet<'_>) -> Result<(), FitsError> {
+    header.set("OBJECT", set.target().name.as_str())?;
     let mut put = |name: &'static str, value: Value, comment: &str| -> Result<(), FitsError> {
         header.set(name, value)?;
         header.set_comment(name, comment)?;
         Ok(())
     };
     let (target, units) = (set.target(), set.units());
-    let [ra, dec] = [target.right_ascension.to_degrees(), target.declination.to_degrees()];
-    put("OBJECT", target.name.as_str().into(), "what is seen")?;
+    let [ra, dec] = [target.right_ascension, target.declination];
     put("TELESCOP", "kerrscope".into(), "a simulation")?;
     if let (Some(angle), [width, height]) = (set.pixel_angle(), set.size().map(f64::from)) {
         let degrees = angle.to_degrees();

@@ -13,7 +13,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::Path;
 
-use hdf5_pure::{AttrValue, Error, File, FileBuilder};
+use hdf5_pure::{AttrValue, Error, File, FileBuilder, VlenStringReadOptions};
 
 use super::file::write_atomically;
 use super::images::ImageSet;
@@ -21,6 +21,8 @@ use super::{FileError, Provenance};
 
 /// The dataset that says how a file was made.
 const RECORD: &str = "kerrscope";
+/// The longest record that is read; the largest scene is shorter.
+const LONGEST_RECORD: usize = 1 << 28;
 /// Numbers along the side of a square that is compressed by itself.
 const CHUNK: u64 = 256;
 
@@ -47,8 +49,8 @@ pub fn encode(to: impl Write, set: &ImageSet<'_>) -> io::Result<()> {
             .with_chunks(&[height.min(CHUNK), width.min(CHUNK)])
             .with_shuffle()
             .with_deflate(4)
-            .set_attr("title", AttrValue::String(image.title))
-            .set_attr("unit", AttrValue::String(image.unit.to_owned()));
+            .set_attr("title", AttrValue::VarLenString(image.title))
+            .set_attr("unit", AttrValue::VarLenString(image.unit.to_owned()));
     }
     for (name, value) in attributes(set) {
         file.set_attr(name, value);
@@ -70,8 +72,8 @@ fn attributes(set: &ImageSet<'_>) -> Vec<(&'static str, AttrValue)> {
         ("distance_pc", units.distance),
         ("frequency_hz", units.frequency),
         ("theta_g_uas", units.microarcseconds()),
-        ("right_ascension_deg", Some(target.right_ascension.to_degrees())),
-        ("declination_deg", Some(target.declination.to_degrees())),
+        ("right_ascension_deg", Some(target.right_ascension)),
+        ("declination_deg", Some(target.declination)),
         ("mjd", Some(target.mjd)),
     ];
     let words = [
@@ -80,7 +82,7 @@ fn attributes(set: &ImageSet<'_>) -> Vec<(&'static str, AttrValue)> {
         ("instruction_level", made.instruction_level),
     ];
     let numbers = numbers.into_iter().filter_map(|(name, value)| Some((name, AttrValue::F64(value?))));
-    let words = words.into_iter().map(|(name, text)| (name, AttrValue::String(text)));
+    let words = words.into_iter().map(|(name, text)| (name, AttrValue::VarLenString(text)));
     numbers.chain(words).chain([("seed", AttrValue::U64(made.seed))]).collect()
 }
 
@@ -91,14 +93,29 @@ fn attributes(set: &ImageSet<'_>) -> Vec<(&'static str, AttrValue)> {
 pub fn read_provenance(path: &Path) -> Result<Provenance, FileError> {
     // What the system says of a file is better than what the format does.
     fs::File::open(path).map_err(|e| FileError::read(path, &e))?;
-    let wrong = |error: Error| match error {
+    Provenance::from_file(path, find_record(File::open_streaming(path)).map_err(|e| wrong(path, e))?)
+}
+
+/// Reads from the contents of an HDF5 file how it was made. `path` is what errors call it.
+///
+/// # Errors
+/// As [`read_provenance`].
+pub fn decode_provenance(contents: Vec<u8>, path: &Path) -> Result<Provenance, FileError> {
+    Provenance::from_file(path, find_record(File::from_bytes(contents)).map_err(|e| wrong(path, e))?)
+}
+
+fn wrong(path: &Path, error: Error) -> FileError {
+    match error {
         Error::Io(e) if e.kind() != io::ErrorKind::UnexpectedEof => FileError::read(path, &e),
         other => FileError::new("read", path, other.to_string(), "give an HDF5 file that is whole"),
-    };
-    let file = File::open_streaming(path).map_err(wrong)?;
-    let text = match file.dataset(RECORD) {
-        Ok(record) => record.read_string().map_err(wrong)?.into_iter().next(),
-        Err(_) => None,
-    };
-    Provenance::from_file(path, text)
+    }
+}
+
+fn find_record(file: Result<File, Error>) -> Result<Option<String>, Error> {
+    let Ok(record) = file?.dataset(RECORD) else { return Ok(None) };
+    if record.shape()? != [1] {
+        return Ok(None);
+    }
+    let longest = VlenStringReadOptions::new().with_max_payload_bytes(LONGEST_RECORD);
+    Ok(record.read_vlen_strings(longest)?.into_iter().next())
 }

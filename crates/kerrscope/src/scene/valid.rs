@@ -361,9 +361,9 @@ pub enum Method {
 pub struct Target {
     /// Its name: 1 to 60 printable characters of ASCII.
     pub name: String,
-    /// Right ascension of the picture's middle in radians.
+    /// Right ascension of the picture's middle in degrees, as headers have it.
     pub right_ascension: f64,
-    /// Declination of the picture's middle in radians.
+    /// Declination of the picture's middle in degrees.
     pub declination: f64,
     /// The time as a modified Julian date.
     pub mjd: f64,

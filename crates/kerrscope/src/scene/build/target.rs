@@ -20,8 +20,8 @@ impl Builder<'_> {
         }
         Target {
             name: file.name.trim().to_owned(),
-            right_ascension: file.right_ascension.to_radians(),
-            declination: file.declination.to_radians(),
+            right_ascension: file.right_ascension,
+            declination: file.declination,
             mjd: file.mjd,
         }
     }
