@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, TAU};
 use std::sync::LazyLock;
 
-use kerrscope::disk::{Disk, DiskHit, Mapping, Picture, Plane, Ring, Surface};
+use kerrscope::disk::{Disk, DiskHit, Mapping, Matter, Picture, Plane, Ring, Shifts, Surface};
 use kerrscope::light::Sheet;
 use kerrscope::texture::Texture;
 use proptest::prelude::*;
@@ -17,8 +17,12 @@ fn ring(seed: u64) -> Disk {
         outer: 16.0,
         plane: Plane::EQUATOR,
         surface: Surface::Ring(ring),
+        matter: Matter { orbits: None, shifts: Shifts::NONE },
         tint: [1.0; 3],
         opacity: 1.0,
+        thin: false,
+        orders: None,
+        time: None,
     }
 }
 
@@ -54,7 +58,8 @@ fn profile(disk: &Disk, n: u32) -> Vec<f64> {
 #[test]
 fn nothing_is_seen_outside_the_radii() {
     for radius in [5.999, 16.001, 0.0, -8.0, f64::NAN, f64::INFINITY] {
-        assert_eq!(ring(1).sheet(&DiskHit { radius, azimuth: 0.0 }), None);
+        let within = ring(1).hit(9.0, [9.0, 0.0, 0.0]);
+        assert_eq!(ring(1).sheet(&DiskHit { radius, ..within }), None);
     }
 }
 
