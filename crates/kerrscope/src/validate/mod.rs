@@ -4,6 +4,7 @@
 
 mod crossings;
 mod deflection;
+mod light;
 mod orbits;
 mod shadow;
 
@@ -45,6 +46,7 @@ pub fn all() -> Vec<Check> {
     checks.extend(shadow::checks());
     checks.extend(deflection::checks());
     checks.extend(crossings::checks());
+    checks.extend(light::checks());
     checks
 }
 
