@@ -4,7 +4,8 @@ use super::Check;
 use crate::spectrum::{observer, planck};
 use crate::units::Units;
 
-const LOCUS: &str = "Planckian locus, CIE 1931 2° observer: its data every nanometre (doi 10.25039/CIE.DS.xvudnb9b)";
+const LOCUS: &str =
+    "Planckian locus, CIE 1931 2° observer: its data every nanometre (doi 10.25039/CIE.DS.xvudnb9b)";
 const SCALES: &str = "GM/(c²D) with the nominal solar mass parameter (IAU 2015 B3)";
 
 /// Temperature in K, and the chromaticity (x, y).
