@@ -27,7 +27,7 @@ fn assert_faults(text: &str, expected: &[Expected]) {
 #[test]
 fn unknown_keys() {
     assert_faults(
-        "[spacetime]\nspn = 0.9\n[screen]\nwidth = 400\n[rendr]\n[sky]\nmass = 1\n[display]\nbits = 8\n",
+        "[spacetime]\nspn = 0.9\n[screen]\nwidth = 400\n[rendr]\n[sky]\nweight = 1\n[display]\nbits = 8\n",
         &[
             (2, 1, "[spacetime] has no key `spn`", "did you mean `spin`?"),
             (4, 1, "[screen] has no key `width`", "`width` belongs in [render]"),
@@ -35,7 +35,7 @@ fn unknown_keys() {
             (
                 7,
                 1,
-                "[sky] has no key `mass`",
+                "[sky] has no key `weight`",
                 "[sky] has the keys brightness, color, frame, image, image_frame, kind, longitude, rotation, spacing, zenith",
             ),
             (8, 2, "there is no section [display]", "write [camera.display]"),

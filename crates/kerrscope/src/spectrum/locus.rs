@@ -69,7 +69,7 @@ pub fn glow(temperature: f64) -> Glow {
     let rgb = rgb::into_gamut(rgb::of_tristimulus([x, 1.0, z]));
     // As the table's matrix has rounded it.
     let unit = rgb::luminance(rgb);
-    Glow { luminance: ln_y.exp(), rgb: rgb.map(|c| c / unit) }
+    Glow { luminance: ln_y.exp().min(f64::MAX), rgb: rgb.map(|c| c / unit) }
 }
 
 /// Lumen in a watt of the light of a black body of a temperature in K: π times the luminance over σT⁴. None has more

@@ -5,6 +5,7 @@
 mod crossings;
 mod deflection;
 mod disk;
+mod light;
 mod orbits;
 mod shadow;
 
@@ -47,6 +48,7 @@ pub fn all() -> Vec<Check> {
     checks.extend(deflection::checks());
     checks.extend(crossings::checks());
     checks.extend(disk::checks());
+    checks.extend(light::checks());
     checks
 }
 
