@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::path::{Path, PathBuf};
 
-use kerrscope::disk::Mapping;
+use kerrscope::disk::{Glow, Limb, Mapping, Profile, Shifts};
 use kerrscope::display::{Colormap, Depth, Display, FalseColor, Tone};
 use kerrscope::render::{Channel, Layer};
 use kerrscope::scene::{self, Engine, Method, Scene, SceneFile};
@@ -108,8 +108,46 @@ fn every_key() {
             color: [0.0, 0.5, 1.0],
             brightness: 2.0,
             opacity: 0.5,
+            thin: false,
+            orbits: None,
+            shifts: Shifts::NONE,
+            orders: None,
+            time: None,
         }
     );
+    let s = read(
+        "[disk]\nmodel = \"power-law\"\nindex = 2\nturns = \"retrograde\"\noptically_thin = true\norders = [0, 2]\n\
+         beaming = false\nlimb = \"electron-scattering\"",
+    );
+    let disk = s.disk.unwrap();
+    let profile = Profile::PowerLaw { index: 2.0 };
+    let surface = scene::Surface::Shining { profile, limb: Limb::ElectronScattering, glow: Glow::Bolometric };
+    assert_eq!(disk.surface, surface);
+    assert!(disk.thin && disk.orders == Some(vec![0, 2]));
+    assert_eq!(disk.shifts, Shifts { doppler: true, gravitational: true, beaming: false });
+    // The last orbit against the spin.
+    assert!((disk.inner - 8.97186134).abs() < 1e-8);
+    let s = read(
+        "units = { mass = 10, frequency = 5e17 }\n[disk]\nmodel = \"page-thorne\"\nlight = \"blackbody\"\n\
+         accretion_rate = 1e-8\ncolor_correction = 1.7\nouter = 30",
+    );
+    let scene::Surface::Shining { glow: Glow::Blackbody { hottest, correction, frequency }, .. } =
+        s.disk.unwrap().surface
+    else {
+        panic!("a black body")
+    };
+    assert!((1e6..1e7).contains(&hottest), "{hottest}");
+    assert_eq!((correction, frequency), (1.7, Some(5e17)));
+    let s = read(
+        "[disk]\nmodel = \"profile\"\nprofile = [[6, 0], [9, 1]]\nlight = \"blackbody\"\ntemperature = 6000",
+    );
+    let disk = s.disk.unwrap();
+    let glow = Glow::Blackbody { hottest: 6000.0, correction: 1.0, frequency: None };
+    let profile = Profile::Knots(vec![[6.0, 0.0], [9.0, 1.0]]);
+    assert_eq!(disk.surface, scene::Surface::Shining { profile, limb: Limb::Isotropic, glow });
+    let s = read("disk = { doppler = true, time = 3 }");
+    let disk = s.disk.unwrap();
+    assert_eq!((disk.shifts.doppler, disk.shifts.gravitational, disk.time), (true, false, Some(3.0)));
     for (typed, mapping) in [
         ("", Mapping::Around),
         ("mapping = \"around\"", Mapping::Around),

@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use kerrscope::disk::Mapping;
+use kerrscope::disk::{Limb, Mapping};
 use kerrscope::display::{Colormap, Tone};
 use kerrscope::material::Finish;
 use kerrscope::render::Layer;
 use kerrscope::scene::file::{
     Camera, Disk, DiskModel, Display, ImageFrame, Inner, Isco, Motion, MotionName, Object, ObjectMotion,
-    ObjectMotionName, Observer, RelativeTo, Render, Screen, ScreenKind, ShapeName, Sky, SkyKind, Spacetime,
-    SpacetimeName, Target, Texture, TextureKind, Units, Velocity,
+    ObjectMotionName, Observer, RelativeTo, Render, Screen, ScreenKind, ShapeName, Shown, Sky, SkyKind,
+    Spacetime, SpacetimeName, Target, Texture, TextureKind, Turns, Units, Velocity,
 };
 use kerrscope::scene::{Coordinates, Engine, Method, Scene, SceneFile};
 use kerrscope::sky::Frame;
@@ -113,7 +113,56 @@ fn disks() -> impl Strategy<Value = Disk> {
         |((outer, tilt, node, brightness, opacity), inner, model, color, seed, mapping)| {
             let image = (model == DiskModel::Image).then(|| "Cargo.toml".to_owned());
             let mapping = mapping.filter(|_| model == DiskModel::Image);
-            Disk { model, inner, outer, tilt, node, color, brightness, opacity, seed, image, mapping }
+            let drawn = Disk::default();
+            Disk {
+                model,
+                inner,
+                outer,
+                tilt,
+                node,
+                color,
+                brightness,
+                opacity,
+                seed,
+                image,
+                mapping,
+                ..drawn
+            }
+        },
+    )
+}
+
+/// Disks that shine lie in the equator.
+fn shining() -> impl Strategy<Value = Disk> {
+    let light = prop_oneof![
+        Just((None, None, None)),
+        Just((Some(Shown::Bolometric), None, None)),
+        (option::of(number(1.0, 1e12)), option::of(number(1.0, 10.0)))
+            .prop_map(|(temperature, correction)| (Some(Shown::Blackbody), temperature, correction)),
+    ];
+    let switches = [option::of(any::<bool>()), option::of(any::<bool>()), option::of(any::<bool>())];
+    let orders = option::of(prop::collection::vec(0_u32..=1000, 1..9));
+    let choices =
+        (option::of(number(-20.0, 20.0)), option::of(Just(Limb::ElectronScattering)), any::<bool>());
+    (disks(), light, switches, orders, choices).prop_map(
+        |(disk, (light, temperature, color_correction), switches, orders, (index, limb, retrograde))| Disk {
+            model: DiskModel::PowerLaw,
+            inner: Inner::Radius(9.5),
+            tilt: 0.0,
+            image: None,
+            mapping: None,
+            turns: if retrograde { Turns::Retrograde } else { Turns::Prograde },
+            optically_thin: retrograde,
+            orders,
+            doppler: switches[0],
+            gravitational: switches[1],
+            beaming: switches[2],
+            index,
+            light,
+            limb,
+            temperature,
+            color_correction,
+            ..disk
         },
     )
 }
@@ -265,7 +314,8 @@ fn headers() -> impl Strategy<Value = (Units, Target)> {
 
 fn scene_files() -> impl Strategy<Value = SceneFile> {
     let things = prop_oneof![3 => Just(Vec::new()), 1 => proptest::collection::vec(objects(), 0..4)];
-    (spacetimes(), observers(), disks(), things, skies(), renders(), cameras(), headers()).prop_map(
+    let disks = prop_oneof![2 => disks(), 1 => shining()];
+    (spacetimes(), observers(), disks, things, skies(), renders(), cameras(), headers()).prop_map(
         |(spacetime, (mut observer, screen), mut disk, object, sky, render, camera, (units, target))| {
             if spacetime.name == SpacetimeName::Minkowski && disk.inner == Inner::Isco(Isco::Isco) {
                 disk.inner = Inner::Radius(3.0);
@@ -279,7 +329,7 @@ fn scene_files() -> impl Strategy<Value = SceneFile> {
             }
             let tilted = disk.model != DiskModel::None && disk.tilt != 0.0;
             let things = !object.is_empty();
-            if things {
+            if things || disk.model.shines() {
                 render.adaptive = None;
             }
             if spacetime.name == SpacetimeName::Minkowski

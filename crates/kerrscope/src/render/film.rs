@@ -96,7 +96,7 @@ mod tests {
 
     #[test]
     fn moments_of_two_dots() {
-        let mut film = Film::blank([8, 4], &[], Level::Baseline);
+        let mut film = Film::blank([8, 4], None, &[], Level::Baseline);
         assert!(film.moments(1.0).is_none());
         // At (1.5, 0.5) and (6.5, 0.5) from the top left: 5 apart, 1.5 above the middle.
         film.light[1] = [1.0; 3];
