@@ -24,10 +24,9 @@ fn a_page_thorne_disk_is_that_of_gyoto() {
     };
     let scene = Scene::load(Some(&root.join("scenes/validation/gyoto.toml")), &[]).unwrap();
     let film = draw(&Stage::new(&scene).unwrap(), &Watch::default()).unwrap();
-    // Row 0 is at the bottom, and α grows to the left.
+    // There the first row is the top one, against the standard, and α grows to the left.
     let reference = pixels(&bytes, 128 * 128);
-    let theirs: Vec<f64> =
-        (0..128 * 128).map(|i| reference[(127 - i / 128) * 128 + (127 - i % 128)]).collect();
+    let theirs: Vec<f64> = (0..128 * 128).map(|i| reference[i / 128 * 128 + (127 - i % 128)]).collect();
     let ours = &film.intensity;
     let peak = theirs.iter().copied().fold(0.0, f64::max);
     let mut ratios: Vec<f64> =

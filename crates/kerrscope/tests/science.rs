@@ -5,7 +5,8 @@ use std::path::Path;
 use std::process::Command;
 
 use kerrscope::display::{Depth, Picture};
-use kerrscope::output::{Format, ImageSet, Intensity, Provenance, Radiance, fits, hdf5, png};
+use kerrscope::light::Radiance;
+use kerrscope::output::{Format, ImageSet, Intensity, Provenance, fits, hdf5, png};
 use kerrscope::render::{Film, Stage, Watch, draw};
 use kerrscope::scene::Scene;
 

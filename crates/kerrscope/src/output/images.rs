@@ -44,7 +44,8 @@ impl Image<'_> {
 /// The images of a render.
 ///
 /// ```
-/// use kerrscope::output::{ImageSet, Intensity, Radiance};
+/// use kerrscope::light::Radiance;
+/// use kerrscope::output::{ImageSet, Intensity};
 /// use kerrscope::render::{Stage, Watch, draw};
 /// use kerrscope::scene::Scene;
 /// # use std::path::Path;
