@@ -19,6 +19,52 @@ const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (Some("scenes/room.toml"), &[], "scenes/room.png"),
     (Some("scenes/well.toml"), &[], "scenes/well.png"),
     (Some("scenes/wormhole.toml"), &[], "scenes/wormhole.png"),
+    (Some("scenes/thesis-4.8-physics.toml"), &[], "scenes/thesis-4.8-physics.png"),
+    (Some("scenes/gallery/disk.toml"), &[], "scenes/gallery/disk.png"),
+    (Some("scenes/gallery/disk.toml"), &["disk.doppler=false"], "scenes/gallery/no-doppler.png"),
+    (Some("scenes/gallery/disk.toml"), &["disk.gravitational=false"], "scenes/gallery/no-gravity.png"),
+    (Some("scenes/gallery/disk.toml"), &["disk.beaming=false"], "scenes/gallery/no-beaming.png"),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.doppler=false", "disk.gravitational=false"],
+        "scenes/gallery/no-shift.png",
+    ),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.orders=[0]", "disk.optically_thin=true", "disk.beaming=false"],
+        "scenes/gallery/order-0.png",
+    ),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.orders=[1]", "disk.optically_thin=true", "disk.beaming=false"],
+        "scenes/gallery/order-1.png",
+    ),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.orders=[2]", "disk.optically_thin=true", "disk.beaming=false"],
+        "scenes/gallery/order-2.png",
+    ),
+    (Some("scenes/gallery/disk.toml"), &["disk.optically_thin=true"], "scenes/gallery/thin.png"),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.turns=retrograde", "camera.display.exposure=-1"],
+        "scenes/gallery/retrograde.png",
+    ),
+    (Some("scenes/gallery/disk.toml"), &["disk.light=bolometric"], "scenes/gallery/bolometric.png"),
+    (Some("scenes/gallery/disk.toml"), &["disk.limb=isotropic"], "scenes/gallery/isotropic.png"),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &["disk.model=power-law", "disk.inner=1.5", "camera.display.exposure=4"],
+        "scenes/gallery/power-law.png",
+    ),
+    (
+        Some("scenes/gallery/disk.toml"),
+        &[
+            "disk.model=profile",
+            "disk.profile=[[4,0],[5,1],[6,0],[9,0],[10,0.6],[11,0],[15,0],[16,0.3],[17,0]]",
+        ],
+        "scenes/gallery/profile.png",
+    ),
     (Some("scenes/two-holes.toml"), &[], "scenes/two-holes.png"),
 ];
 

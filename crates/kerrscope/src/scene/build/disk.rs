@@ -171,15 +171,7 @@ impl Builder<'_> {
         units: Units,
     ) -> Option<Glow> {
         if file.light != Some(Shown::Blackbody) {
-            for (key, given) in [
-                ("disk.temperature", file.temperature.is_some()),
-                ("disk.accretion_rate", file.accretion_rate.is_some()),
-                ("disk.color_correction", file.color_correction.is_some()),
-            ] {
-                if given && self.root.at(key).is_some() {
-                    self.unused(key, "disk.light", &["blackbody"]);
-                }
-            }
+            // Whoever looks at all of the light keeps the temperature for when colours are looked at again.
             return Some(Glow::Bolometric);
         }
         let hottest = match (file.temperature, file.accretion_rate) {

@@ -42,19 +42,19 @@ pub struct Disk {
     /// Whether its light is shifted by the motion of the matter. If not given, that of a model that shines by physics is, and
     /// what is drawn is not; so too for the next two.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "bool")]
+    #[schemars(with = "bool", extend("default" = false))]
     pub doppler: Option<bool>,
     /// Whether its light is shifted by gravity.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "bool")]
+    #[schemars(with = "bool", extend("default" = false))]
     pub gravitational: Option<bool>,
     /// Whether its brightness goes with the shift, as g⁴; otherwise its colours alone do.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "bool")]
+    #[schemars(with = "bool", extend("default" = false))]
     pub beaming: Option<bool>,
     /// Emissivity r^−index of a "power-law"; 3 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "f64", range(min = -20, max = 20), extend("default" = INDEX))]
+    #[schemars(with = "f64", range(min = -20, max = 20))]
     pub index: Option<f64>,
     /// Radii in M and fluxes [[r, F], …] of a "profile", joined by straight lines.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -82,7 +82,7 @@ pub struct Disk {
     pub accretion_rate: Option<f64>,
     /// How much hotter the colour of a "blackbody" is than its flux; 1 if not given.
     #[serde(skip_serializing_if = "Option::is_none")]
-    #[schemars(with = "f64", range(min = 1, max = 10), extend("default" = 1.0))]
+    #[schemars(with = "f64", range(min = 1, max = 10))]
     pub color_correction: Option<f64>,
     /// Time of the camera's clock in M at which the pattern of a "ring" or an "image" is seen, which turns with the matter; without
     /// it the pattern stands still.

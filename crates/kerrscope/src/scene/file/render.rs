@@ -65,7 +65,7 @@ pub struct Render {
     pub adaptive_error: f64,
     /// Data layers to compute beside the light, of the rays through the pixels' centres; EXR files
     /// hold them.
-    #[schemars(length(max = 12))]
+    #[schemars(length(max = 13))]
     pub layers: Vec<Layer>,
 }
 
