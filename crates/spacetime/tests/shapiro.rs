@@ -11,16 +11,20 @@ fn closest(b: f64) -> f64 {
     2.0 * b / 3f64.sqrt() * ((-(27f64.sqrt()) / b).acos() / 3.0).cos()
 }
 
-/// Coordinate time from closest approach to r: ∫ r^{5/2} dr/[(r − 2)√(r³ − b²r + 2b²)], less r + 2 ln(r/2) (Weinberg 1972, eq.
-/// 8.7.2). With r = r₀(1 + y²) and r³ − b²r + 2b² = (r − r₀)(r² + r₀r + r₀² − b²) nothing in it is singular, and with
-/// what is subtracted taken into the integral it converges for r → ∞.
+/// Coordinate time from closest approach to r: ∫ dr/[(1 − 2u)√(1 − ε)], u = 1/r, ε = b²u²(1 − 2u), less r + 2 ln(r/2) (Weinberg
+/// 1972, eq. 8.7.2). With r = r₀(1 + y²) and r³ − b²r + 2b² = (r − r₀)(r² + r₀r + r₀² − b²) nothing in it is singular. What is
+/// subtracted is taken into the integral, which then converges for r → ∞, and so that no digits are lost:
+///   1/[(1 − 2u)√(1 − ε)] − 1 − 2u = {4u² + ε/[√(1 − ε)(1 + √(1 − ε))]}/(1 − 2u).
 fn delay(b: f64, r: f64) -> f64 {
     let least = closest(b);
     let nodes = Nodes::new(40);
     let integrand = |y: f64| {
         let r = least * (1.0 + y * y);
-        let root = (r * r + least * r + least * least - b * b).sqrt();
-        2.0 * least.sqrt() * r.powf(2.5) / ((r - 2.0) * root) - 2.0 * least * y * (1.0 + 2.0 / r)
+        let u = 1.0 / r;
+        // √(1 − ε)/y.
+        let slope = (least * (r * r + least * r + least * least - b * b)).sqrt() / (r * r.sqrt());
+        let bent = b * b * u * u * (1.0 - 2.0 * u) / (slope * (1.0 + slope * y));
+        2.0 * least * (4.0 * u * u * y + bent) / (1.0 - 2.0 * u)
     };
     // Over s = y/(1 + y), in panels.
     let last = if r.is_finite() {

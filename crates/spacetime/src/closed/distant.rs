@@ -116,8 +116,6 @@ impl<S: Scalar, const N: usize> Radial<S> for Distant<'_, S, N> {
         let azimuth = self.azimuth.at(angle, (sin, cos)) - self.begun[1]
             + rest * numerator(spin, lambda, between) / delta;
         // χ grows, and vanishes at the turning point.
-        let one = tau.constant(1.0);
-        let inwards = S::select(angle.less(one.constant(0.0)), one, -one);
-        Place { u: u + change, azimuth, time: tau.constant(f64::NAN), inwards }
+        Place { u: u + change, azimuth, time: tau.constant(f64::NAN), inwards: -angle }
     }
 }

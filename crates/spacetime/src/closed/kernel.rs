@@ -31,7 +31,7 @@ pub struct Place<S> {
     pub azimuth: S,
     /// Coordinate time that it has added, regularised at infinity; NaN unless asked for.
     pub time: S,
-    /// +1 where u grows along the ray, −1 where it does not.
+    /// Positive where u grows along the ray.
     pub inwards: S,
 }
 
@@ -60,7 +60,7 @@ pub struct Meeting<S: Scalar> {
     pub position: [S; 2],
     /// p_z of the light as it comes, that is −p_z of the ray.
     pub normal: S,
-    /// +1 where the ray goes inwards, and light outwards; −1 where it does not.
+    /// Positive where the ray goes inwards, and light outwards.
     pub inwards: S,
 }
 
@@ -81,6 +81,9 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
     );
     let total = radial.total();
     let mut n = oscillation.first();
+    // The light's r p_z = −μ′ where X = nπ: μ′ = √η (−1)ⁿ.
+    let odd = n - (n * 0.5).round() * 2.0;
+    let mut across = start.photon.eta.sqrt() * (odd.abs() * 2.0 - 1.0);
     for _ in 0..count {
         let [tau, turned, height] = oscillation.crossing(n);
         let met = tau.less(total);
@@ -91,10 +94,11 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
         let tau = S::select(met, tau, total * 0.5);
         let meeting = total.outline(
             #[inline(always)]
-            || meeting(start, &radial.at(tau), met, [turned, height], n),
+            || meeting(start, &radial.at(tau), met, [turned, height], across),
         );
         each(&meeting);
         n += n.constant(1.0);
+        across = -across;
     }
     if !escape {
         return [total, total];
@@ -106,15 +110,15 @@ pub fn follow<S: Scalar, R: Radial<S>, const N: usize, const TIMED: bool>(
     [theta, start.azimuth + radial.azimuth_to_infinity() + turned]
 }
 
-/// The crossing at a place, where the phase of the motion in θ is nπ and up to which it has added `turned` to the azimuth
-/// and `height` to the time.
+/// The crossing at a place, up to which the motion in θ has added `turned` to the azimuth and `height` to the
+/// time; there r p_z is `across`.
 #[inline(always)]
 fn meeting<S: Scalar>(
     start: &Start<S>,
     place: &Place<S>,
     met: S::Mask,
     [turned, height]: [S; 2],
-    n: S,
+    across: S,
 ) -> Meeting<S> {
     let spin = start.photon.spin;
     let r = place.u.recip();
@@ -122,8 +126,6 @@ fn meeting<S: Scalar>(
     // x + iy = (r + is) e^{iφ̃}, φ̃ = φ + tw.
     let (sin, cos) = (phi + start.horizons.twist(place.u)).sin_cos();
     let position = [r * cos - spin * sin, r * sin + spin * cos];
-    // μ′ = √η (−1)ⁿ, and p_z = μ′/r.
-    let odd = n - (n * 0.5).round() * 2.0;
-    let normal = start.photon.eta.sqrt() * place.u * (odd.abs() * 2.0 - 1.0);
-    Meeting { met, r, phi, elapsed: place.time + height, position, normal, inwards: place.inwards }
+    let (elapsed, normal) = (place.time + height, across * place.u);
+    Meeting { met, r, phi, elapsed, position, normal, inwards: place.inwards }
 }

@@ -374,9 +374,9 @@ impl<S: Scalar, const PLAIN: bool, const TIMED: bool> Radial<S> for Sweep<'_, S,
         };
         let Course { inwards, shape, lead, .. } = self.start.course;
         let zero = u.constant(0.0);
-        // Light that has a turning point ahead turns there.
-        let turned = S::select(lead.less(zero), S::select(late, -inwards, inwards), inwards);
-        let inwards = if PLAIN { inwards } else { S::select(shape.less(zero), turned, inwards) };
+        // Light that has a turning point ahead turns there, where the motion is late.
+        let turned = S::select(lead.max(shape).less(zero), -inwards, inwards);
+        let inwards = if PLAIN { inwards } else { S::select(late, turned, inwards) };
         Place { u, azimuth, time, inwards }
     }
 }
