@@ -49,7 +49,6 @@ pub(super) fn build(
     (spacetime, file.spacetime) = builder.spacetime(&file.spacetime);
     let observer = builder.observer(&file, &spacetime);
     let disk = builder.disk(&file.disk, &spacetime, (&file.units).into());
-    let rays = disk.as_ref().is_some_and(Disk::needs_rays);
     Scene {
         observer,
         screen: builder.screen(&file.screen, &spacetime, observer),
@@ -57,7 +56,7 @@ pub(super) fn build(
         objects: builder.objects(&file.object, &spacetime),
         sky: builder.sky(&file.sky, "sky"),
         other_sky: builder.other_sky(&file, &spacetime),
-        render: builder.render(&file, &spacetime, observer.place, rays),
+        render: builder.render(&file, &spacetime, observer.place, disk.as_ref()),
         display: builder.display(&file.camera.display),
         units: (&file.units).into(),
         target: builder.target(&file.target),
@@ -104,7 +103,13 @@ impl Builder<'_> {
         self.faults.push(&place, || (what.into(), mend.into()));
     }
 
-    fn render(&mut self, scene: &SceneFile, spacetime: &Spacetime, place: Place, needs_rays: bool) -> Render {
+    fn render(
+        &mut self,
+        scene: &SceneFile,
+        spacetime: &Spacetime,
+        place: Place,
+        disk: Option<&Disk>,
+    ) -> Render {
         let (file, shown) = (&scene.render, scene.camera.display.layer);
         let layers: BTreeSet<Layer> = file.layers.iter().copied().chain(shown).collect();
         let rays = u64::from(file.width) * u64::from(file.height) * u64::from(file.samples);
@@ -135,7 +140,7 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\", or give `observer.distance` a finite number",
             );
         }
-        self.render_text(scene, spacetime, &layers);
+        self.render_text(scene, spacetime, disk, &layers);
         let coordinates = self.light_coordinates(scene, spacetime, place);
         let engine = self.engine(scene, spacetime, coordinates);
         // Straight rays are faster than interpolation; whoever asks for a method's steps wants to see its errors.
@@ -150,6 +155,7 @@ impl Builder<'_> {
                 "remove `render.adaptive`, or the things",
             );
         }
+        let needs_rays = disk.is_some_and(Disk::needs_rays);
         if needs_rays && file.adaptive == Some(true) {
             self.fault(
                 &["render.adaptive", "disk.model"],
@@ -179,7 +185,13 @@ impl Builder<'_> {
     }
 
     /// What cannot be done with a metric of which nothing but its components is known.
-    fn render_text(&mut self, scene: &SceneFile, spacetime: &Spacetime, layers: &BTreeSet<Layer>) {
+    fn render_text(
+        &mut self,
+        scene: &SceneFile,
+        spacetime: &Spacetime,
+        disk: Option<&Disk>,
+        layers: &BTreeSet<Layer>,
+    ) {
         let Some(element) = spacetime.text() else { return };
         if scene.render.method == Method::Rk4 && (element.has_throat() || element.outer().is_finite()) {
             self.fault(
@@ -188,8 +200,26 @@ impl Builder<'_> {
                 "choose `render.method = \"dop853\"` or \"tsit5\"",
             );
         }
-        for layer in [Layer::T, Layer::G, Layer::Windings].into_iter().filter(|layer| layers.contains(layer))
-        {
+        if layers.contains(&Layer::G) && disk.is_some_and(|disk| disk.orbits.is_none()) {
+            self.fault(
+                &["render.layers", "camera.display.layer", "disk.inner"],
+                "the layer \"g\" is that of matter in orbit, and orbits in this metric are looked for only if the disk needs them",
+                "set `disk.inner = \"isco\"`, or choose a model that shines, such as `disk.model = \"power-law\"`",
+            );
+        }
+        if disk.is_some_and(|disk| disk.time.is_some()) {
+            self.fault(
+                &["disk.time", "spacetime.name"],
+                "how long light takes is known around Kerr holes only, and this spacetime is a text",
+                "leave out `disk.time`",
+            );
+        }
+        let unknown = if disk.is_some() {
+            vec![Layer::T, Layer::Windings]
+        } else {
+            vec![Layer::T, Layer::G, Layer::Windings]
+        };
+        for layer in unknown.into_iter().filter(|layer| layers.contains(layer)) {
             self.fault(
                 &["render.layers", "camera.display.layer", "spacetime.name"],
                 format!(
