@@ -49,6 +49,7 @@ pub(super) fn build(
     (spacetime, file.spacetime) = builder.spacetime(&file.spacetime);
     let observer = builder.observer(&file, &spacetime);
     let disk = builder.disk(&file.disk, &spacetime, (&file.units).into());
+    let render = builder.render(&file, &spacetime, observer.place, disk.as_ref());
     Scene {
         observer,
         screen: builder.screen(&file.screen, &spacetime, observer),
@@ -56,7 +57,7 @@ pub(super) fn build(
         objects: builder.objects(&file.object, &spacetime),
         sky: builder.sky(&file.sky, "sky"),
         other_sky: builder.other_sky(&file, &spacetime),
-        render: builder.render(&file, &spacetime, observer.place, disk.as_ref()),
+        render,
         display: builder.display(&file.camera.display),
         units: (&file.units).into(),
         target: builder.target(&file.target),
