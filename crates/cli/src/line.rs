@@ -1,15 +1,14 @@
 //! `kerrscope line`: the profile of a spectral line from a disk around a Kerr hole.
 
-mod plot;
-
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use kerrscope::display::chart::Scale;
 use kerrscope::line::{Emissivity, Line, Profile, tracer};
-use kerrscope::output::file::write_atomically;
 use serde::Serialize;
 
+use crate::plot::{self, Plot, Shape, save, shapes};
 use crate::report::Failure;
 use crate::{parse_inclination, parse_spin, print, print_json};
 
@@ -66,18 +65,6 @@ enum Engine {
     ClosedForm,
     /// The equations of motion, step by step
     Integrator,
-}
-
-/// How a profile is written.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-enum Shape {
-    /// Lines "g,flux"
-    #[default]
-    Csv,
-    /// For programs
-    Json,
-    /// A plot
-    Svg,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -156,35 +143,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             shape => print(&written(shape, &output, &profile)?),
         };
     }
-    for (path, shape) in arguments.output.iter().zip(shapes) {
-        let text = written(shape, &output, &profile)?;
-        write_atomically(path, |file| writeln_all(file, &text))
-            .map_err(|e| Failure::Failed(e.to_string()))?;
-    }
-    Ok(())
-}
-
-fn writeln_all(file: &mut dyn std::io::Write, text: &str) -> std::io::Result<()> {
-    writeln!(file, "{text}")
-}
-
-/// What the endings of files ask for, all that are unknown said at once.
-fn shapes(paths: &[PathBuf]) -> Result<Vec<Shape>, Failure> {
-    let mut wrong = Vec::new();
-    let mut shapes = Vec::new();
-    for path in paths {
-        match path.extension().and_then(|ending| ending.to_str()).map(str::to_ascii_lowercase).as_deref() {
-            Some("svg") => shapes.push(Shape::Svg),
-            Some("csv") => shapes.push(Shape::Csv),
-            Some("json") => shapes.push(Shape::Json),
-            _ => wrong.push(path.display().to_string()),
-        }
-    }
-    if wrong.is_empty() {
-        Ok(shapes)
-    } else {
-        Err(Failure::Input(format!("{}: give a name that ends in .svg, .csv or .json", wrong.join(", "))))
-    }
+    save(&arguments.output, &shapes, |shape| written(shape, &output, &profile))
 }
 
 /// A power, or the table in a file.
@@ -213,7 +172,13 @@ fn written(shape: Shape, output: &Output<'_>, profile: &Profile) -> Result<Strin
     Ok(match shape {
         Shape::Json => serde_json::to_string_pretty(output).map_err(|e| Failure::Failed(e.to_string()))?,
         Shape::Csv => csv(output),
-        Shape::Svg => plot::draw(profile, &title(output)),
+        Shape::Svg => plot::draw(&Plot {
+            title: &title(output),
+            labels: ["g = ν observed / ν sent", "flux / peak"],
+            range: profile.range,
+            scale: Scale::Linear,
+            bins: &profile.flux,
+        }),
     })
 }
 

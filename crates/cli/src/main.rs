@@ -7,6 +7,7 @@ mod bench;
 mod line;
 mod manual;
 mod orbits;
+mod plot;
 mod progress;
 mod render;
 mod report;
@@ -15,6 +16,7 @@ mod shadow;
 mod side_view;
 mod source;
 mod spacetime;
+mod spectrum;
 mod trace;
 mod validate;
 
@@ -59,6 +61,8 @@ enum Command {
     Shadow(shadow::Arguments),
     /// The profile of a spectral line from a disk
     Line(line::Arguments),
+    /// The continuum spectrum of a disk of black bodies
+    Spectrum(spectrum::Arguments),
     /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
     Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
@@ -98,6 +102,7 @@ fn main() -> ExitCode {
         Command::Orbits(a) => orbits::run(&a),
         Command::Shadow(a) => shadow::run(&a),
         Command::Line(a) => line::run(&a),
+        Command::Spectrum(a) => spectrum::run(&a),
         Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::path::Path;
 
 use kerrscope::light::Radiance;
-use kerrscope::render::{Channel, Film, Layer, Stage, Watch, draw};
+use kerrscope::render::{Channel, Film, Layer, Stage, Watch, continuum, draw};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::emitter::{Circular, Sense};
 
@@ -218,4 +218,37 @@ fn disks_that_cannot_shine_are_refused() {
         let found = faults(text);
         assert!(found.contains(said), "{text}\n{found}");
     }
+}
+
+/// The continuum at a frequency is what the picture shows at it; face-on in flat space that of a disk of one temperature is
+/// `B_ν` times its area.
+#[test]
+fn the_continuum_is_that_of_the_picture() {
+    let text = |frequency: f64| {
+        format!(
+            "units.frequency = {frequency:e}\nspacetime.spin = 0.9\nobserver.inclination = 70\nsky.kind = \"black\"\n\
+             disk = {{ model = \"page-thorne\", light = \"blackbody\", color_correction = 1.5, opacity = 0.7, limb = \"electron-scattering\" }}\n\
+             render = {{ width = 48, height = 27, samples = 4 }}"
+        )
+    };
+    let frequencies = [1e13, 2e14, 3e15];
+    let scene = Scene::from_toml(&text(1.0), Path::new("")).unwrap();
+    let (found, _) = continuum(&Stage::new(&scene).unwrap(), &frequencies).unwrap();
+    for (frequency, found) in frequencies.into_iter().zip(found) {
+        let film = film(&text(frequency));
+        assert_eq!(film.radiance, Some(Radiance::Specific));
+        let mean = film.intensity.iter().sum::<f64>() / film.intensity.len() as f64;
+        assert!((found / mean - 1.0).abs() < 1e-12, "{found} {mean}");
+    }
+    let size = 400;
+    let text = format!(
+        "spacetime.name = \"minkowski\"\nobserver = {{ distance = inf, inclination = 0 }}\nsky.kind = \"black\"\n\
+         screen = {{ kind = \"impact\", field_of_view = 22 }}\n\
+         disk = {{ model = \"power-law\", index = 0, light = \"blackbody\", temperature = 5000, inner = 4, outer = 10 }}\n\
+         render = {{ width = {size}, height = {size}, samples = 4 }}"
+    );
+    let scene = Scene::from_toml(&text, Path::new("")).unwrap();
+    let (found, _) = continuum(&Stage::new(&scene).unwrap(), &[3e14]).unwrap();
+    let area = found[0] * 22.0 * 22.0 / kerrscope::spectrum::planck::per_frequency(3e14, 5000.0);
+    assert!((area / (PI * 84.0) - 1.0).abs() < 1e-4, "{area}");
 }

@@ -104,6 +104,24 @@ pub enum Glow {
     },
 }
 
+/// Light of a black body, diluted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Thermal {
+    /// T, K.
+    pub temperature: f64,
+    /// f.
+    pub correction: f64,
+    /// How much of it there is.
+    pub factor: f64,
+}
+
+impl Thermal {
+    /// I_ν in W m⁻² Hz⁻¹ sr⁻¹ at a frequency in Hz.
+    pub fn at(&self, frequency: f64) -> f64 {
+        self.factor * planck::corrected(frequency, self.temperature, self.correction)
+    }
+}
+
 /// A disk's own light.
 ///
 /// ```
@@ -143,9 +161,29 @@ impl Emission {
         }
     }
 
+    /// Whether it is that of black bodies.
+    pub fn is_thermal(&self) -> bool {
+        matches!(self.glow, Glow::Blackbody { .. })
+    }
+
     /// Whether it depends on the angle at which it leaves.
     pub fn needs_angle(&self) -> bool {
         self.limb != Limb::Isotropic
+    }
+
+    /// The black body that is seen of the place at radius r with the shift g: I_ν = factor · (1/f⁴) `B_ν(fT)`. None if it is
+    /// none, and where it is dark.
+    pub fn thermal(&self, r: f64, g: f64, beaming: bool, cosine: f64) -> Option<Thermal> {
+        let Glow::Blackbody { hottest, correction, .. } = self.glow else { return None };
+        let flux = self.profile.flux(r);
+        // Also where there is no number.
+        if !(flux > 0.0 && g > 0.0) {
+            return None;
+        }
+        // g³ B_ν/g(T) = B_ν(gT), of which the whole goes with g⁴.
+        let all = if beaming { 1.0 } else { g.powi(-4) };
+        let temperature = g * hottest * (flux / self.peak).powf(0.25);
+        Some(Thermal { temperature, correction, factor: self.limb.factor(cosine) * all })
     }
 
     /// What is seen of the place at radius r with the shift g, by light that leaves at an angle of this cosine. I_ν/ν³ is the
@@ -166,12 +204,9 @@ impl Emission {
                 let temperature = hottest * share.powf(0.25);
                 let seen = locus::glow(g * correction * temperature);
                 let bright = limb * all / g.powi(4) * seen.luminance / self.luminance;
-                let intensity = match frequency {
-                    // g³ B_ν/g(T) = B_ν(gT), of which the whole goes with g⁴.
-                    Some(frequency) => {
-                        limb * all / g.powi(4) * planck::corrected(frequency, g * temperature, correction)
-                    }
-                    None => limb * all * flux / PI,
+                let intensity = match (frequency, self.thermal(r, g, beaming, cosine)) {
+                    (Some(frequency), Some(thermal)) => thermal.at(frequency),
+                    _ => limb * all * flux / PI,
                 };
                 Light { rgb: seen.rgb.map(|c| c * bright), intensity }
             }

@@ -9,7 +9,7 @@ mod picture;
 mod plane;
 mod ring;
 
-pub use emission::{Emission, Glow, Limb, Profile};
+pub use emission::{Emission, Glow, Limb, Profile, Thermal};
 pub use matter::{Matter, Shifts};
 pub use picture::{Mapping, Picture};
 pub use plane::Plane;
@@ -150,6 +150,15 @@ impl Disk {
         sheet.light = Light { rgb, intensity: sheet.light.intensity * self.opacity };
         sheet.opacity = if self.thin { 0.0 } else { (sheet.opacity * self.opacity).clamp(0.0, 1.0) };
         Some(sheet)
+    }
+
+    /// The black body that is seen there, if it is one; as much of it as [`sheet`](Self::sheet) shows.
+    pub fn thermal(&self, hit: &DiskHit) -> Option<Thermal> {
+        let Surface::Shining(emission) = &self.surface else { return None };
+        let light = hit.light.as_ref()?;
+        let leaving = self.matter.leaving(hit.radius, light, emission.needs_angle())?;
+        let thermal = emission.thermal(hit.radius, leaving.g, self.matter.shifts.beaming, leaving.cosine)?;
+        Some(Thermal { factor: thermal.factor * self.opacity, ..thermal })
     }
 
     fn place(&self, hit: &DiskHit) -> Place {

@@ -1,6 +1,7 @@
 //! Rendering: every pixel's rays, in parallel, the same for any number of threads.
 
 mod adaptive;
+mod continuum;
 mod film;
 mod layer;
 mod legs;
@@ -12,6 +13,7 @@ mod tally;
 mod tile;
 mod tracer;
 
+pub use continuum::continuum;
 pub use film::{Film, Plane};
 pub use layer::{Channel, Layer, ORDERS};
 pub use sampling::Sampler;

@@ -164,6 +164,11 @@ impl Stage {
         }
     }
 
+    /// The disk, if there is one.
+    pub(super) fn disk(&self) -> Option<&Disk> {
+        self.disk.as_ref()
+    }
+
     /// The data layers that the scene asks for.
     pub fn channels(&self) -> &[Channel] {
         self.probe.channels()
@@ -418,6 +423,24 @@ impl Stage {
             let mut paths = replay.paths.iter();
             for arrives in &replay.arrives {
                 each(if *arrives { paths.next() } else { None });
+            }
+        }
+    }
+
+    /// Traces the rays at points of the picture; tells of each photon that arrives.
+    pub(super) fn trace_rays(
+        &self,
+        points: &[[f64; 2]],
+        replay: &mut Replay,
+        tally: &mut Tally,
+        mut each: impl FnMut(&Ray, &Path),
+    ) {
+        for some in points.chunks(BATCH) {
+            replay.points.clear();
+            replay.points.extend(some);
+            self.follow(&self.query, replay, tally);
+            for (ray, path) in replay.rays.iter().zip(&replay.paths) {
+                each(ray, path);
             }
         }
     }

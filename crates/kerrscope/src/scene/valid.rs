@@ -162,6 +162,16 @@ pub struct Disk {
 }
 
 impl Disk {
+    /// Colour temperature of its hottest place in K, if it shines as black bodies do.
+    pub fn hottest(&self) -> Option<f64> {
+        match &self.surface {
+            Surface::Shining { glow: Glow::Blackbody { hottest, correction, .. }, .. } => {
+                Some(hottest * correction)
+            }
+            _ => None,
+        }
+    }
+
     /// Whether what is seen of it depends on more of a ray than where it crosses the plane, so that nothing can be
     /// interpolated between rays.
     pub fn needs_rays(&self) -> bool {

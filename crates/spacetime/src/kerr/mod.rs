@@ -4,9 +4,11 @@
 
 mod conserved;
 mod critical_curve;
+mod lensing_bands;
 mod orbits;
 
 pub use conserved::Conserved;
 pub(crate) use conserved::carter;
 pub use critical_curve::{CriticalCurve, Extent};
+pub use lensing_bands::{LensingBand, lensing_bands};
 pub use orbits::{Orbits, ergosphere, horizons};
