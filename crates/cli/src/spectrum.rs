@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use kerrscope::camera::Camera;
 use kerrscope::display::chart::Scale;
 use kerrscope::render::{Stage, continuum};
+use kerrscope::scene::Disk;
 use serde::Serialize;
 
 use crate::plot::{self, Plot, Shape, save, shapes};
@@ -55,7 +56,7 @@ const PEAK: f64 = 8.17e10;
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let shapes = shapes(&arguments.output)?;
     let scene = arguments.source.load([])?;
-    let hottest = scene.disk.as_ref().and_then(|disk| disk.hottest()).ok_or_else(|| {
+    let hottest = scene.disk.as_ref().and_then(Disk::hottest).ok_or_else(|| {
         Failure::Input(
             "the scene has no disk of black bodies: set disk.model to \"page-thorne\", \"power-law\" or \"profile\", \
              and disk.light to \"blackbody\""

@@ -8,7 +8,7 @@ use std::path::Path;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use kerrscope::camera::Camera;
-use kerrscope::disk::{Disk, DiskHit, Plane, Ring, Surface};
+use kerrscope::disk::{Disk, DiskHit, Matter, Plane, Ring, Shifts, Surface};
 use kerrscope::display::{Depth, Display, Picture};
 use kerrscope::output::{Provenance, png};
 use kerrscope::render::{Film, Replay, Sampler, Stage, Tally};
@@ -85,9 +85,21 @@ fn shading(criterion: &mut Criterion) {
         surface: Surface::Ring(Ring::new(1)),
         tint: [1.0; 3],
         opacity: 1.0,
+        matter: Matter { orbits: None, shifts: Shifts::NONE },
+        thin: false,
+        orders: None,
+        time: None,
     };
     group.bench_function("ring", |b| {
-        b.iter(|| disk.sheet(black_box(&DiskHit { radius: 9.3, azimuth: 0.7 })));
+        b.iter(|| {
+            disk.sheet(black_box(&DiskHit {
+                radius: 9.3,
+                azimuth: 0.7,
+                order: 0,
+                light: None,
+                elapsed: f64::NAN,
+            }))
+        });
     });
     let stars = Sky::Stars(Stars::new(1e-3, Orientation::upright(0.0), 1.0));
     group.bench_function("stars", |b| b.iter(|| stars.radiance(black_box(towards(1.2, 0.3)), 1e-3)));

@@ -27,8 +27,7 @@ fn what_all_observers_see_is_the_luminosity() {
     let luminosity: f64 = knots
         .windows(2)
         .map(|pair| {
-            let ([a, f], [b, g]) = (pair[0].into(), pair[1].into());
-            let (a, f, b, g): (f64, f64, f64, f64) = (a, f, b, g);
+            let ([a, f], [b, g]) = (pair[0], pair[1]);
             // ∫ (f + (g − f)(r − a)/(b − a)) r dr.
             (b - a) * (f * (2.0 * a + b) + g * (a + 2.0 * b)) / 6.0
         })

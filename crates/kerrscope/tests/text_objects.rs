@@ -98,7 +98,7 @@ fn things_around_a_hole_that_turns_are_met_as_they_are_around_its_text() {
     let world = World::new(vec![ball([-9.0, 1.0, 0.5]), ball([0.0, 5.0, 1.0]), ball([2.0, -4.0, -3.0])]);
     let (mut hits, mut worst) = (0, 0.0_f64);
     for k in 0..2000 {
-        let (up, across) = ((k / 50) as f64 / 40.0 - 0.5, (k % 50) as f64 / 50.0 - 0.5);
+        let (up, across) = (f64::from(k / 50) / 40.0 - 0.5, f64::from(k % 50) / 50.0 - 0.5);
         let norm = (1.0 + up * up + 2.0 * across * across).sqrt();
         let ray = observer.ray([-1.0 / norm, up / norm, 2_f64.sqrt() * across / norm]);
         let growth = Kerr::new(-spin).sensitivity(ray.energy, &ray.start).max(1.0);

@@ -58,7 +58,11 @@ impl Profile {
                 let golden = 0.5 * (5f64.sqrt() - 1.0);
                 for _ in 0..40 {
                     let (a, b) = (high - golden * (high - low), low + golden * (high - low));
-                    if at(a) < at(b) { low = a } else { high = b }
+                    if at(a) < at(b) {
+                        low = a;
+                    } else {
+                        high = b;
+                    }
                 }
                 at(0.5 * (low + high)).max(at(best))
             }

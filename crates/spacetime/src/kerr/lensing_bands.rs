@@ -105,7 +105,11 @@ impl Sight {
         let (mut dark, mut seen) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let share = 0.5 * (dark + seen);
-            if self.crossings(at(share), 1) > 0 { seen = share } else { dark = share }
+            if self.crossings(at(share), 1) > 0 {
+                seen = share;
+            } else {
+                dark = share;
+            }
         }
         at(seen)
     }
@@ -118,9 +122,9 @@ impl Sight {
         for _ in 0..HALVINGS {
             let exponent = 0.5 * (seen + dark);
             if self.crossings(at(exponent.exp()), order + 1) > order {
-                seen = exponent
+                seen = exponent;
             } else {
-                dark = exponent
+                dark = exponent;
             }
         }
         at(seen.exp())

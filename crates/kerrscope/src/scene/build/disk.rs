@@ -184,17 +184,17 @@ impl Builder<'_> {
                 return None;
             }
             (Some(temperature), None) => temperature,
-            (None, Some(rate)) => match units.temperature(profile.peak(inner, outer), rate) {
-                Some(temperature) => temperature,
-                None => {
+            (None, Some(rate)) => {
+                let Some(temperature) = units.temperature(profile.peak(inner, outer), rate) else {
                     self.fault(
                         &["disk.accretion_rate"],
                         "how hot a rate of accretion makes the disk depends on the mass of the hole",
                         "give `units.mass` in solar masses, or `disk.temperature` instead",
                     );
                     return None;
-                }
-            },
+                };
+                temperature
+            }
             (None, None) => return None,
         };
         let correction = file.color_correction.unwrap_or(1.0);
