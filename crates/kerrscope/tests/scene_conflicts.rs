@@ -373,3 +373,16 @@ fn the_closed_form_is_for_equatorial_disks_around_holes() {
         assert_eq!(faults[0].line_column(), Some((1, 17)));
     }
 }
+
+#[test]
+fn a_hole_next_door() {
+    assert_faults(
+        "units = { mass = 1e20, distance = 1e-10 }",
+        &[(
+            1,
+            35,
+            "at that distance M has an angle of 4.8e16 radians on the sky, and 0.001 are the most",
+            "give `units.mass` in solar masses and `units.distance` in pc, such as 6.5e9 and 16.8e6",
+        )],
+    );
+}

@@ -24,6 +24,7 @@ use super::tree::Node;
 use super::valid::{Disk, Engine, Method, Render, Spacetime};
 use super::{Scene, shape};
 use crate::render::Layer;
+use crate::units::Units;
 
 /// The largest number of rays in a picture: width × height × samples.
 const MAX_RAYS: u64 = 1 << 36;
@@ -59,7 +60,7 @@ pub(super) fn build(
         other_sky: builder.other_sky(&file, &spacetime),
         render,
         display: builder.display(&file.camera.display),
-        units: (&file.units).into(),
+        units: builder.units(&file.units),
         target: builder.target(&file.target),
         spacetime,
         file,
@@ -86,7 +87,25 @@ struct Builder<'a> {
 /// The keys that fix the spacetime.
 const SPACETIME: [&str; 2] = ["spacetime.spin", "spacetime.name"];
 
+/// The largest angle of M on the sky, in radians, at which a picture is a small piece of it.
+const WIDEST: f64 = 1e-3;
+
 impl Builder<'_> {
+    /// A hole that is far away, as units on the sky are for.
+    fn units(&mut self, file: &file::Units) -> Units {
+        let units = Units::from(file);
+        if let Some(angle) = units.radians().filter(|angle| *angle > WIDEST) {
+            self.fault(
+                &["units.distance", "units.mass"],
+                format!(
+                    "at that distance M has an angle of {angle:.1e} radians on the sky, and {WIDEST} are the most"
+                ),
+                "give `units.mass` in solar masses and `units.distance` in pc, such as 6.5e9 and 16.8e6",
+            );
+        }
+        units
+    }
+
     /// Reports what is wrong with several keys together, at the first of them that was typed.
     fn fault(&mut self, keys: &[&str], what: impl Into<String>, mend: impl Into<String>) {
         let within = |inner: &str, outer: &str| {
