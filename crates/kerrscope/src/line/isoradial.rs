@@ -75,11 +75,17 @@ impl Isoradials<'_> {
 
     /// The same in given directions.
     pub fn along(&self, radii: &[f64], angles: &[f64]) -> Vec<Option<Point>> {
-        let far = 2.0 * radii.iter().copied().fold(10.0, f64::max)
-            / self.screen.inclination.cos().abs().max(0.1)
-            + 30.0;
+        let places: Vec<[f64; 2]> =
+            angles.iter().flat_map(|angle| radii.iter().map(|r| [*r, *angle])).collect();
+        self.at(&places)
+    }
+
+    /// The same for pairs of a radius and a direction.
+    pub fn at(&self, places: &[[f64; 2]]) -> Vec<Option<Point>> {
+        let farthest = places.iter().map(|[r, _]| *r).fold(10.0, f64::max);
+        let far = 2.0 * farthest / self.screen.inclination.cos().abs().max(0.1) + 30.0;
         let mut searches: Vec<Search> =
-            angles.iter().flat_map(|angle| radii.iter().map(|r| Search::new(*angle, 1.0 / r, far))).collect();
+            places.iter().map(|[r, angle]| Search::new(*angle, 1.0 / r, far)).collect();
         searches.par_chunks_mut(BATCH).for_each(|some| self.search(some));
         searches.iter().map(Search::found).collect()
     }

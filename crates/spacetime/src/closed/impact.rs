@@ -6,12 +6,13 @@ use super::horizons::Horizons;
 use super::kernel::{self, Meeting, Radial, Start};
 use super::photon::{Photon, Potential};
 use super::planar;
-use super::polar::{FEW, FEW_REACH, MANY, SOME, SOME_REACH, size_of_nome};
+use super::polar::{FEW, FEW_REACH, MANY, Oscillation, SOME, SOME_REACH, size_of_nome};
 use super::quadrature::Nodes;
 use super::radial::Sweep;
 use super::series::Cosines;
 use super::tracer::{PLAIN_NODES, PLANAR};
 use super::vortical::Vortex;
+use super::weierstrass::inverse_radius;
 use crate::scalar::Scalar;
 
 /// A ray given by impact parameters, as [`impact_ray`](crate::observer::impact_ray) takes them: its photon has
@@ -149,6 +150,22 @@ impl<S: Scalar> Impact<S> {
             Photon { spin: -spin, lambda: alpha * sin, eta, u, u_rate: u, mu: cos, mu_rate: beta * sin };
         let speed = Potential::new(&photon).at(u).sqrt();
         Photon { u_rate: if inwards { speed } else { -speed }, ..photon }
+    }
+
+    /// 1/r where the ray crosses the equatorial plane for the time number `order`, counted from 0, by one rational function of
+    /// Weierstrass's ℘ that is smooth across turning points: far less work than [`trace`](Self::trace), with which it
+    /// agrees to a few 1e-7, at worst 1e-5: doubling the argument of ℘ loses the other digits.
+    ///
+    /// It is the continuation of 1/r along the motion, and does not tell whether the ray gets there: where it is below 0 or
+    /// above 1/r₊, and where its τ is longer than the ray, there is no such crossing. For η > 0, light that moves outwards
+    /// at the camera, and a nome up to 0.15 (b ≳ 1 M).
+    #[inline(always)]
+    pub fn inverse_radius(&self, tables: &Tables, order: usize) -> S {
+        let photon = self.photon(true);
+        let heading = [self.alpha, self.beta];
+        let oscillation = Oscillation::<S, SOME>::new::<false>(&photon, heading, &tables.some);
+        let [tau, ..] = oscillation.crossing(oscillation.first() + order as f64);
+        inverse_radius(&Potential::new(&photon), self.u, self.u.constant(1.0), tau)
     }
 
     /// Follows the ray and finds at most `count` crossings of the equatorial plane.

@@ -19,6 +19,7 @@ mod factors;
 mod horizons;
 mod impact;
 mod kernel;
+mod landing;
 mod photon;
 mod planar;
 mod polar;
@@ -31,6 +32,7 @@ mod vortical;
 mod weierstrass;
 
 pub use impact::{Impact, ImpactCrossing, ImpactPath, Tables};
+pub use landing::{Landing, Landings};
 pub use quadrature::Nodes;
 pub(crate) use tracer::windings;
 pub use tracer::{ClosedForm, NODES};

@@ -120,10 +120,15 @@ impl<S: Scalar, const N: usize> Oscillation<S, N> {
             let l = first_nome(complement);
             let l4 = (l * l).squared();
             q = l * (l4 * (l4 * 15.0 + 2.0) + 1.0);
+        } else if N == SOME {
+            // As far as 1707ℓ¹⁷; it has derivatives at k = 0 too.
+            mean = mean_with_one(complement, 7);
+            let l = first_nome(complement);
+            let l4 = (l * l).squared();
+            q = l * (l4 * (l4 * (l4 * (l4 * 1707.0 + 150.0) + 15.0) + 2.0) + 1.0);
         } else {
             // −q is the nome of the parameter k/(1 + k).
             let iterations = match N {
-                SOME => 7,
                 LARGE => 9,
                 _ => 40,
             };

@@ -1,0 +1,3 @@
+//! Black holes read off pictures.
+
+pub mod traced;

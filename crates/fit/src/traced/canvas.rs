@@ -1,0 +1,205 @@
+//! Polygons and curves onto pixels, by exact areas and lengths.
+
+/// Numbers that every place of the image has: brightness, and what it changes by with each parameter.
+pub const CHANNELS: usize = 16;
+
+/// A corner of a cell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Corner {
+    /// Pixels from the top left corner, to the right and down.
+    pub place: [f64; 2],
+    /// Numbers there.
+    pub values: [f64; CHANNELS],
+}
+
+/// What a picture collects.
+#[derive(Clone, Debug)]
+pub struct Canvas {
+    width: usize,
+    height: usize,
+    /// How many channels are drawn.
+    channels: usize,
+    pixels: Vec<[f64; CHANNELS]>,
+}
+
+/// A polygon of few corners.
+#[derive(Clone, Copy)]
+struct Polygon {
+    corners: [[f64; 2]; 12],
+    count: usize,
+}
+
+impl Polygon {
+    /// The part on one side of a line across an axis: where the coordinate is above `bound`, or below.
+    fn clipped(&self, axis: usize, bound: f64, above: bool) -> Self {
+        let mut part = Self { corners: [[0.0; 2]; 12], count: 0 };
+        if self.count == 0 {
+            return part;
+        }
+        let depth = |p: &[f64; 2]| if above { p[axis] - bound } else { bound - p[axis] };
+        let mut before = self.corners[self.count - 1];
+        let mut before_depth = depth(&before);
+        for corner in &self.corners[..self.count] {
+            let here = depth(corner);
+            if (here > 0.0) != (before_depth > 0.0) && part.count < 12 {
+                let share = before_depth / (before_depth - here);
+                let mut cut = [0.0; 2];
+                for k in 0..2 {
+                    cut[k] = before[k] + share * (corner[k] - before[k]);
+                }
+                cut[axis] = bound;
+                part.corners[part.count] = cut;
+                part.count += 1;
+            }
+            if here > 0.0 && part.count < 12 {
+                part.corners[part.count] = *corner;
+                part.count += 1;
+            }
+            (before, before_depth) = (*corner, here);
+        }
+        part
+    }
+
+    /// Area, positive whichever way it goes around, and the first moments about a point.
+    fn moments(&self, about: [f64; 2]) -> [f64; 3] {
+        let (mut area, mut first) = (0.0, [0.0; 2]);
+        if self.count < 3 {
+            return [0.0; 3];
+        }
+        let at = |k: usize| [self.corners[k][0] - about[0], self.corners[k][1] - about[1]];
+        let mut before = at(self.count - 1);
+        for k in 0..self.count {
+            let here = at(k);
+            let cross = before[0] * here[1] - here[0] * before[1];
+            area += cross;
+            first[0] += (before[0] + here[0]) * cross;
+            first[1] += (before[1] + here[1]) * cross;
+            before = here;
+        }
+        let sign = if area < 0.0 { -1.0 } else { 1.0 };
+        [0.5 * area * sign, first[0] * sign / 6.0, first[1] * sign / 6.0]
+    }
+}
+
+impl Canvas {
+    /// A dark one.
+    pub fn new(width: usize, height: usize, channels: usize) -> Self {
+        Self { width, height, channels, pixels: vec![[0.0; CHANNELS]; width * height] }
+    }
+
+    /// The channels of each pixel, the top row first.
+    pub fn pixels(&self) -> &[[f64; CHANNELS]] {
+        &self.pixels
+    }
+
+    /// Draws a cell of four corners, between which its numbers are linear: the mean over each pixel of what lies in it.
+    pub fn cell(&mut self, corners: [&Corner; 4]) {
+        let places = corners.map(|corner| corner.place);
+        let bounds = |axis: usize| {
+            let values = places.map(|place| place[axis]);
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            (low, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+        };
+        let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
+        let (width, height) = (self.width as f64, self.height as f64);
+        if !(right > 0.0 && left < width && bottom > 0.0 && top < height) {
+            return;
+        }
+        let plane = Plane::through(&places);
+        let mut polygon = Polygon { corners: [[0.0; 2]; 12], count: 4 };
+        polygon.corners[..4].copy_from_slice(&places);
+        let columns = [left.max(0.0).floor(), right.min(width).ceil()];
+        let rows = [top.max(0.0).floor(), bottom.min(height).ceil()];
+        let inside = left >= 0.0 && right <= width && top >= 0.0 && bottom <= height;
+        if inside && columns[1] - columns[0] <= 1.0 && rows[1] - rows[0] <= 1.0 {
+            self.add(rows[0] as usize * self.width + columns[0] as usize, &polygon, &plane, &corners);
+            return;
+        }
+        let mut column = columns[0];
+        while column < columns[1] {
+            let strip = polygon.clipped(0, column, true).clipped(0, column + 1.0, false);
+            let mut row = rows[0];
+            while row < rows[1] && strip.count > 2 {
+                let piece = strip.clipped(1, row, true).clipped(1, row + 1.0, false);
+                if piece.count > 2 {
+                    self.add(row as usize * self.width + column as usize, &piece, &plane, &corners);
+                }
+                row += 1.0;
+            }
+            column += 1.0;
+        }
+    }
+
+    fn add(&mut self, pixel: usize, piece: &Polygon, plane: &Plane, corners: &[&Corner; 4]) {
+        let [area, x, y] = piece.moments(plane.middle);
+        let shares = plane.shares(area, [x, y]);
+        let pixel = &mut self.pixels[pixel];
+        for channel in 0..self.channels {
+            let mut sum = 0.0;
+            for (share, corner) in shares.iter().zip(corners) {
+                sum += share * corner.values[channel];
+            }
+            pixel[channel] += sum;
+        }
+    }
+
+    /// Draws a stretch of an edge, straight between two places: `sweep` is for each channel the area in pixels² that it sweeps
+    /// over, times the brightness on its side.
+    pub fn edge(&mut self, from: [f64; 2], to: [f64; 2], sweep: &[f64; CHANNELS]) {
+        let mut cuts = [0.0; 64];
+        let mut count = 1;
+        for axis in 0..2 {
+            let (low, high) = (from[axis].min(to[axis]), from[axis].max(to[axis]));
+            let mut line = low.floor() + 1.0;
+            while line < high && count < 62 {
+                cuts[count] = (line - from[axis]) / (to[axis] - from[axis]);
+                count += 1;
+                line += 1.0;
+            }
+        }
+        cuts[count] = 1.0;
+        cuts[1..count].sort_unstable_by(f64::total_cmp);
+        for pair in cuts[..=count].windows(2) {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            let [x, y] = [0, 1].map(|k| from[k] + middle * (to[k] - from[k]));
+            if !(x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64) {
+                continue;
+            }
+            let pixel = &mut self.pixels[y as usize * self.width + x as usize];
+            for channel in 1..self.channels {
+                pixel[channel] += sweep[channel] * (pair[1] - pair[0]);
+            }
+        }
+    }
+}
+
+/// The linear function that comes closest to four values.
+struct Plane {
+    middle: [f64; 2],
+    /// How much of each corner's value makes the slopes.
+    slopes: [[f64; 2]; 4],
+}
+
+impl Plane {
+    fn through(places: &[[f64; 2]; 4]) -> Self {
+        let mut middle = [0.0; 2];
+        for place in places {
+            middle = [middle[0] + 0.25 * place[0], middle[1] + 0.25 * place[1]];
+        }
+        let from: [[f64; 2]; 4] = places.map(|p| [p[0] - middle[0], p[1] - middle[1]]);
+        let [mut xx, mut xy, mut yy] = [0.0; 3];
+        for [x, y] in from {
+            (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
+        }
+        let determinant = xx * yy - xy * xy;
+        // A cell without width has no slope across: nothing is in it.
+        let per = if determinant > 1e-12 * xx * yy { determinant.recip() } else { 0.0 };
+        let slopes = from.map(|[x, y]| [(yy * x - xy * y) * per, (xx * y - xy * x) * per]);
+        Self { middle, slopes }
+    }
+
+    /// What of each corner's value makes the integral over a piece.
+    fn shares(&self, area: f64, [x, y]: [f64; 2]) -> [f64; 4] {
+        self.slopes.map(|[along, across]| 0.25 * area + along * x + across * y)
+    }
+}

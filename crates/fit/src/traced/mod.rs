@@ -1,0 +1,14 @@
+//! Disks seen along the light's own paths: pictures with exact derivatives.
+
+mod canvas;
+mod lines;
+mod matter;
+mod order;
+mod picture;
+mod pieces;
+mod screen;
+
+pub use canvas::Canvas;
+pub use matter::Profile;
+pub use picture::{DRAWN, Fineness, Painter, Setting, Unseen};
+pub use screen::{Frame, Projection};

@@ -1,0 +1,409 @@
+//! The picture of a disk, and what it changes by with every parameter.
+//!
+//! With I(r, λ) on the screen and r, λ functions of the place there, the mean over a pixel is an integral whose derivative has two
+//! parts: that of the brightness at a fixed place, and the brightness at the edges times the area over which they sweep. Both are
+//! known from the series of the images: nothing is differenced, and no sample is drawn by chance.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::sync::OnceLock;
+
+use kerrscope::spacetime::closed::Landings;
+use kerrscope::spacetime::kerr::Orbits;
+
+use super::canvas::{CHANNELS, Canvas, Corner};
+use super::lines::{Around, Basis, Lines, Point};
+use super::matter::{Matter, Profile};
+use super::order::{HOLE, NotFound, ORDERS, View, solve};
+use super::pieces::{Bound, MOVES, Rates, edges, left};
+use super::screen::{Frame, Projection, SCREEN, Screen};
+
+/// A disk in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Setting {
+    /// a.
+    pub spin: f64,
+    /// i, radians, beyond π/2 from below.
+    pub inclination: f64,
+    /// 1/r of the observer.
+    pub u: f64,
+    /// Inner radius in units of the last stable orbit's, 1 at least.
+    pub inner: f64,
+    /// Outer radius, M; infinite where it lies beyond the picture.
+    pub outer: f64,
+    /// F(r).
+    pub profile: Profile,
+    /// Where the picture is.
+    pub frame: Frame,
+}
+
+/// Channels of what is drawn: the brightness, then its derivatives with respect to spin, inclination, 1/r, inner and outer radius,
+/// the power law's index, scale, both coordinates of the centre, and the position angle.
+pub const DRAWN: usize = 11;
+
+/// First channels of the hole's, the edges' and the frame's parameters.
+const AT_HOLE: usize = 1;
+const AT_EDGES: usize = AT_HOLE + HOLE;
+const AT_INDEX: usize = AT_EDGES + 2;
+const AT_FRAME: usize = AT_INDEX + 1;
+
+/// How finely pictures are drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fineness {
+    /// Lines around.
+    pub lines: usize,
+    /// Steps in ln r.
+    pub step: f64,
+    /// Steps of r as a share of the length over which the flux bends.
+    pub bend: f64,
+}
+
+impl Default for Fineness {
+    /// Such that means over pixels are within 1e-3 of the brightest.
+    fn default() -> Self {
+        Self { lines: 320, step: 0.03, bend: 0.06 }
+    }
+}
+
+/// Numbers of directions in which images may be solved for, and up to which inclination the first are enough.
+const DIRECTIONS: [usize; 5] = [32, 64, 128, 256, 512];
+
+/// The size of the last terms around, as a share of the first, at which a series is long enough.
+const CONVERGED: f64 = 3e-6;
+
+/// Draws disks.
+#[derive(Debug)]
+pub struct Painter {
+    size: [usize; 2],
+    projection: Projection,
+    opaque: bool,
+    fineness: Fineness,
+    landings: Landings,
+    around: [OnceLock<Around>; DIRECTIONS.len()],
+}
+
+/// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
+const FAR_X: f64 = 0.02;
+
+/// Light that no picture can be made of: some of it does not come from where it should.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub struct Unseen;
+
+impl From<NotFound> for Unseen {
+    fn from(_: NotFound) -> Self {
+        Self
+    }
+}
+
+impl Painter {
+    /// For pictures of a width and a height in pixels.
+    pub fn new(size: [usize; 2], projection: Projection, opaque: bool, fineness: Fineness) -> Self {
+        Self {
+            size,
+            projection,
+            opaque,
+            fineness,
+            landings: Landings::default(),
+            around: std::array::from_fn(|_| OnceLock::new()),
+        }
+    }
+
+    /// The mean over each pixel and, if asked for, its derivatives: [`DRAWN`] channels.
+    ///
+    /// # Errors
+    /// If the disk has no picture.
+    pub fn draw(&self, setting: &Setting, derivatives: bool) -> Result<Canvas, Unseen> {
+        let above = setting.inclination <= FRAC_PI_2;
+        let inclination = if above { setting.inclination } else { PI - setting.inclination };
+        let view = View { spin: setting.spin, inclination, u: setting.u };
+        let screen =
+            Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection);
+        let (isco, isco_rate) = last_stable_orbit(setting.spin);
+        let inner = (isco * setting.inner).powf(-0.5);
+        let mut rates = Rates { edges: [Some([0.0; MOVES]), None] };
+        if let Some(inner_rates) = &mut rates.edges[0] {
+            inner_rates[0] = -0.5 * inner * isco_rate / isco;
+            inner_rates[HOLE] = -0.5 * inner / setting.inner;
+        }
+        let bounded = setting.outer * setting.u <= 0.5 && setting.outer.is_finite();
+        let outer_x = setting.outer.powf(-0.5);
+        if bounded {
+            let mut moves = [0.0; MOVES];
+            moves[HOLE + 1] = -0.5 * outer_x / setting.outer;
+            rates.edges[1] = Some(moves);
+        }
+        let reach = self.reach(setting, &view);
+        // Images of higher orders have all of a disk without an outer edge next to the critical curve.
+        let outer = |order: usize, chi: f64| match order {
+            _ if bounded => outer_x,
+            0 => cover(&view, reach, view.angle(chi)[0]).min(0.9 * inner),
+            _ => FAR_X,
+        };
+        let ends = [if bounded { outer_x } else { FAR_X }, inner];
+        let matter = Matter::new(setting.spin, setting.profile, ends);
+        let mut images = Vec::new();
+        for order in 0..ORDERS {
+            images.push(self.image(&view, order, inner, &|chi| outer(order, chi))?);
+        }
+        let sketch = Sketch {
+            above,
+            setting,
+            view: &view,
+            screen: &screen,
+            matter: &matter,
+            channels: if derivatives { DRAWN } else { 1 },
+        };
+        let mut canvas = Canvas::new(self.size[0], self.size[1], sketch.channels);
+        for (order, image) in images.iter().enumerate() {
+            let before = if self.opaque { &images[..order] } else { &[] };
+            let rows = thinned(&self.rows(&matter, [inner, outer(order, 0.0)]), order);
+            self.paint(&sketch, image, before, &rates, &rows, &mut canvas);
+        }
+        Ok(canvas)
+    }
+
+    /// M from the middle of the polar coordinates to the picture's farthest corner.
+    fn reach(&self, setting: &Setting, view: &View) -> f64 {
+        let Frame { scale, center, .. } = setting.frame;
+        let half = [0, 1].map(|k| 0.5 * self.size[k] as f64 + center[k].abs());
+        half[0].hypot(half[1]) * scale + view.center().0.abs()
+    }
+
+    /// The image of an order along the lines.
+    fn image(
+        &self,
+        view: &View,
+        order: usize,
+        inner: f64,
+        outer: &impl Fn(f64) -> f64,
+    ) -> Result<Lines, Unseen> {
+        let mut first = if view.inclination.cos() > 0.5 { 1 } else { 2 };
+        if view.inclination.cos() < 0.2 {
+            first = 3;
+        }
+        for (choice, directions) in DIRECTIONS.into_iter().enumerate().skip(first) {
+            let ends: Vec<f64> =
+                (0..directions).map(|j| outer(2.0 * PI * j as f64 / directions as f64)).collect();
+            let nodes = solve(view, &self.landings, order, inner, &ends)?;
+            if choice + 1 < DIRECTIONS.len() && nodes.tail() > CONVERGED {
+                continue;
+            }
+            let around = self.around[choice].get_or_init(|| Around::new(directions, self.fineness.lines));
+            return Ok(Lines::new(view, order, &nodes, around, inner, &ends));
+        }
+        Err(Unseen)
+    }
+
+    /// t of the rows of the direct image: close where the flux bends.
+    fn rows(&self, matter: &Matter, [inner, outer]: [f64; 2]) -> Vec<f64> {
+        const GRID: usize = 400;
+        let x = |t: f64| inner + (outer - inner) * t;
+        let largest = (0..=GRID).map(|k| matter.flux(x(k as f64 / GRID as f64))[0]).fold(0.0, f64::max);
+        let mut sums = vec![0.0];
+        for k in 0..GRID {
+            let middle = x((k as f64 + 0.5) / GRID as f64);
+            let relative = 2.0 * (inner - outer) / GRID as f64 / middle;
+            let bend = matter.smoothness(middle, largest) * self.fineness.bend;
+            let steps = (relative / self.fineness.step).max(relative * middle.powi(-2) / bend);
+            sums.push(sums[k] + steps);
+        }
+        let count = sums[GRID].ceil().clamp(8.0, 2000.0);
+        let mut rows = Vec::new();
+        let mut k = 0;
+        for row in 0..=count as usize {
+            let target = sums[GRID] * row as f64 / count;
+            while k + 1 < GRID && sums[k + 1] < target {
+                k += 1;
+            }
+            rows.push(((k as f64 + (target - sums[k]) / (sums[k + 1] - sums[k])) / GRID as f64).clamp(0.0, 1.0));
+        }
+        rows
+    }
+
+    /// Draws what is seen of an image past those before it.
+    fn paint(
+        &self,
+        sketch: &Sketch,
+        image: &Lines,
+        before: &[Lines],
+        rates: &Rates,
+        rows: &[f64],
+        canvas: &mut Canvas,
+    ) {
+        let lines = self.fineness.lines;
+        let stretches: Vec<Vec<[Bound; 2]>> = (0..lines)
+            .map(|line| {
+                let others = before.iter().map(|other| edges(other, line, rates)).collect();
+                left(edges(image, line, rates), others)
+            })
+            .collect();
+        let bases: Vec<Basis> = rows.iter().map(|t| Basis::at(*t)).collect();
+        for rank in 0..=before.len() {
+            if stretches.iter().all(|line| line[rank][1].rho <= line[rank][0].rho) {
+                continue;
+            }
+            let strip = |line: usize| {
+                let bounds = stretches[line][rank];
+                if before.is_empty() {
+                    let corners = bases.iter().zip(rows).map(|(basis, t)| {
+                        sketch.corner(image, line, &image.along(line, *t, basis))
+                    });
+                    return Strip { bounds, line, corners: corners.collect() };
+                }
+                let [from, to] = bounds.map(|bound| image.find(line, bound.rho));
+                let corners = rows.iter().map(|row| {
+                    let t = from + (to - from) * row;
+                    sketch.corner(image, line, &image.at(line, t))
+                });
+                Strip { bounds, line, corners: corners.collect() }
+            };
+            let first = strip(0);
+            let mut last = strip(0);
+            for line in 1..=lines {
+                let next = if line == lines { first.clone() } else { strip(line) };
+                for (low, high) in last.corners.windows(2).zip(next.corners.windows(2)) {
+                    canvas.cell([&low[0], &low[1], &high[1], &high[0]]);
+                }
+                if sketch.channels > 1 {
+                    sketch.sweep(image, &last, &next, canvas);
+                }
+                last = next;
+            }
+        }
+    }
+}
+
+/// Fewer rows for images that are thinner.
+fn thinned(rows: &[f64], order: usize) -> Vec<f64> {
+    let share = [1.0, 0.4, 0.2, 0.1][order];
+    let count = ((rows.len() - 1) as f64 * share).ceil().max(6.0) as usize;
+    (0..=count)
+        .map(|k| {
+            let place = k as f64 / count as f64 * (rows.len() - 1) as f64;
+            let below = (place as usize).min(rows.len() - 2);
+            rows[below] + (place - below as f64) * (rows[below + 1] - rows[below])
+        })
+        .collect()
+}
+
+/// Radius of the last stable orbit about +z, and its derivative in a.
+fn last_stable_orbit(spin: f64) -> (f64, f64) {
+    let step = 1e-6;
+    let ends = [(spin - step).max(-1.0), (spin + step).min(1.0)];
+    let at = |a: f64| Orbits::new(a).isco;
+    (at(spin), (at(ends[1]) - at(ends[0])) / (ends[1] - ends[0]))
+}
+
+/// x beyond which the direct image lies outside the picture, in a direction: that of a ray that goes straight, some M farther out.
+/// With X to the right and Y up, κ = uY tan i: 1/r = (1 − κ)/√(X² + Y²/cos² i), smoothly bounded where it sees the sky.
+fn cover(view: &View, reach: f64, psi: f64) -> f64 {
+    let (sin, cos) = psi.sin_cos();
+    let (tilt_sin, tilt_cos) = view.inclination.sin_cos();
+    let rho = 1.1 * reach + 6.0;
+    let flat = (cos * cos + (sin / tilt_cos).powi(2)).sqrt() * rho;
+    let u = (1.0 - view.u * rho * sin * tilt_sin / tilt_cos) / flat;
+    let least = 0.02 / reach;
+    (0.5 * (u + u.hypot(2.0 * least))).sqrt()
+}
+
+/// What corners are computed from.
+struct Sketch<'a> {
+    above: bool,
+    setting: &'a Setting,
+    view: &'a View,
+    screen: &'a Screen,
+    matter: &'a Matter,
+    channels: usize,
+}
+
+/// A line with its corners.
+#[derive(Clone)]
+struct Strip {
+    bounds: [Bound; 2],
+    line: usize,
+    corners: Vec<Corner>,
+}
+
+impl Sketch<'_> {
+    /// How the centre of polar coordinates moves with the hole's parameters.
+    fn center(&self) -> (f64, [f64; HOLE]) {
+        let (alpha, mut moves) = self.view.center();
+        if !self.above {
+            moves[1] = -moves[1];
+        }
+        (alpha, moves)
+    }
+
+    /// The derivative in the hole's parameter `p` of what is a function of the view, whose inclination is that of the mirror image.
+    fn own(&self, p: usize, value: f64) -> f64 {
+        if p == 1 && !self.above { -value } else { value }
+    }
+
+    fn corner(&self, image: &Lines, line: usize, point: &Point) -> Corner {
+        let [cos, sin, ..] = image.rays[line];
+        let (center, center_moves) = self.center();
+        let impact = [center + point.rho * cos, point.rho * sin];
+        let sin_i = self.setting.inclination.sin();
+        let glow = self.matter.glow(point.x, -impact[0] * sin_i);
+        let spot = self.screen.spot(impact);
+        let mut values = [0.0; CHANNELS];
+        values[0] = glow.value;
+        if self.channels == 1 {
+            return Corner { place: spot.pixel, values };
+        }
+        let rate = -2.0 * point.x.powi(-3);
+        let (outwards, around) = (rate * point.slope[0], rate * point.slope[1] / point.rho);
+        let slope = [outwards * cos - around * sin, outwards * sin + around * cos];
+        for (k, drift) in spot.drift.iter().enumerate() {
+            let mut moved = *drift;
+            if k < HOLE {
+                let along = self.own(k, point.drift[k]);
+                moved = [moved[0] - center_moves[k] - along * cos, moved[1] - along * sin];
+            }
+            let radius = slope[0] * moved[0] + slope[1] * moved[1];
+            let mut lambda = -sin_i * drift[0];
+            if k == 1 {
+                lambda -= impact[0] * self.setting.inclination.cos();
+            }
+            let channel = if k < HOLE { AT_HOLE + k } else { AT_FRAME + k - HOLE };
+            values[channel] = glow.radius * radius + glow.lambda * lambda;
+        }
+        values[AT_HOLE] += glow.spin;
+        values[AT_INDEX] = glow.index;
+        Corner { place: spot.pixel, values }
+    }
+
+    /// What both edges sweep over between two lines.
+    fn sweep(&self, image: &Lines, from: &Strip, to: &Strip, canvas: &mut Canvas) {
+        let (center, center_moves) = self.center();
+        for (side, sign) in [(0, -1.0), (1, 1.0)] {
+            let ends = [from, to];
+            let corners = ends.map(|strip| if side == 0 { &strip.corners[0] } else { &strip.corners[strip.corners.len() - 1] });
+            let bounds = ends.map(|strip| strip.bounds[side]);
+            let light = 0.5 * (corners[0].values[0] + corners[1].values[0]);
+            let mut sweep = [0.0; CHANNELS];
+            let rays = ends.map(|strip| image.rays[strip.line]);
+            let impact = [0, 1].map(|k| [center + bounds[k].rho * rays[k][0], bounds[k].rho * rays[k][1]]);
+            let along = [impact[1][0] - impact[0][0], impact[1][1] - impact[0][1]];
+            for k in 0..2 {
+                let [cos, sin, ..] = rays[k];
+                let drift = self.screen.spot(impact[k]).drift;
+                let pixel = (drift[4][0] * drift[5][1] - drift[4][1] * drift[5][0]).abs();
+                let area = |[x, y]: [f64; 2]| 0.5 * sign * light * (x * along[1] - y * along[0]) / pixel;
+                for p in 0..SCREEN {
+                    let mut moved = [-drift[p][0], -drift[p][1]];
+                    if p < HOLE {
+                        let outwards = self.own(p, bounds[k].moves[p]);
+                        moved = [moved[0] + center_moves[p] + outwards * cos, moved[1] + outwards * sin];
+                    }
+                    let channel = if p < HOLE { AT_HOLE + p } else { AT_FRAME + p - HOLE };
+                    sweep[channel] += area(moved);
+                }
+                for p in HOLE..MOVES {
+                    let outwards = bounds[k].moves[p];
+                    sweep[AT_EDGES + p - HOLE] += area([outwards * cos, outwards * sin]);
+                }
+            }
+            canvas.edge(corners[0].place, corners[1].place, &sweep);
+        }
+    }
+}
