@@ -165,7 +165,7 @@ impl<S: Scalar> Impact<S> {
         let heading = [self.alpha, self.beta];
         let oscillation = Oscillation::<S, SOME>::new::<false>(&photon, heading, &tables.some);
         let [tau, ..] = oscillation.crossing(oscillation.first() + order as f64);
-        inverse_radius(&Potential::new(&photon), self.u, self.u.constant(1.0), tau)
+        inverse_radius::<_, true>(&Potential::new(&photon), self.u, self.u.constant(1.0), tau)
     }
 
     /// Follows the ray and finds at most `count` crossings of the equatorial plane.

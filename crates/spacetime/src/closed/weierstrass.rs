@@ -14,8 +14,16 @@ const DOUBLINGS: i32 = 5;
 ///   u = u₀ + [½U′P + U U‴/24 ∓ √U ℘′]/[2P² + UQ/2],   U and its derivatives at u₀.
 /// ℘ and ℘′ come from their Laurent series at τ/32 and five doublings,
 ///   S = (6℘² − g₂/2)/℘′,   ℘(2z) = S²/4 − 2℘,   ℘′(2z) = −[℘′ + S(℘(2z) − ℘)].
+/// Each of these loses a digit, for ℘ ≈ z⁻². With `CAREFUL` they are multiplied out, which takes twice as long, and none is lost:
+///   ℘(2z) = [(℘² + g₂/4)² + 2g₃℘]/℘′²,
+///   ℘′(2z) = [4℘⁶ − 5g₂℘⁴ − 20g₃℘³ − (5/4)g₂²℘² − g₂g₃℘ − 2g₃² + g₂³/16]/(2℘′³).
 #[inline(always)]
-pub fn inverse_radius<S: Scalar>(potential: &Potential<S>, u0: S, inwards: S, tau: S) -> S {
+pub fn inverse_radius<S: Scalar, const CAREFUL: bool>(
+    potential: &Potential<S>,
+    u0: S,
+    inwards: S,
+    tau: S,
+) -> S {
     let Potential { b, c, q } = *potential;
     let g2 = b * b * (1.0 / 12.0) - q;
     let g3 = -(q * b * (1.0 / 6.0) + b * b * b * (1.0 / 216.0) + c * c * 0.25);
@@ -41,6 +49,18 @@ pub fn inverse_radius<S: Scalar>(potential: &Potential<S>, u0: S, inwards: S, ta
     p = p.mul_add(z2, inverse2);
     slope = slope.mul_add(z, inverse2 * inverse * -2.0);
     for _ in 0..DOUBLINGS {
+        if CAREFUL {
+            let per_slope = slope.recip();
+            let square = p * p;
+            let whole = square + g2 * 0.25;
+            let double = (whole * whole + g3 * p * 2.0) * (per_slope * per_slope);
+            // By powers of ℘.
+            let last = g2 * g2 * g2 * (1.0 / 16.0) - g3 * g3 * 2.0;
+            let rest = ((g2 * square * -5.0 - g3 * p * 20.0 - g2 * g2 * 1.25) * square - g2 * g3 * p) + last;
+            slope = (square * square * square * 4.0 + rest) * 0.5 * (per_slope * per_slope * per_slope);
+            p = double;
+            continue;
+        }
         let s = ((p * p) * 6.0 - g2 * 0.5) / slope;
         let double = (s * s).mul_add(s.constant(0.25), p * -2.0);
         slope = -(s.mul_add(double - p, slope));
