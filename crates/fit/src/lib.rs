@@ -1,3 +1,26 @@
-//! Black holes read off pictures.
+//! Black holes read off pictures: a picture as a function of parameters, and what is known of these once it is seen.
 
+mod blur;
+pub mod chains;
+mod coordinates;
+pub mod diagnostics;
+pub mod fit;
+pub mod likelihood;
+pub mod mode;
+pub mod model;
+pub mod models;
+pub mod noise;
+pub mod nuts;
+mod observed;
+mod prior;
+mod reduce;
+mod ring;
+pub mod summary;
 pub mod traced;
+mod verdict;
+
+pub use blur::{FWHM, Kernel};
+pub use coordinates::{Coordinates, Place};
+pub use observed::{COMMON, Observed};
+pub use prior::Prior;
+pub use ring::Ring;

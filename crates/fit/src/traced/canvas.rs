@@ -1,15 +1,50 @@
 //! Polygons and curves onto pixels, by exact areas and lengths.
 
-/// Numbers that every place of the image has: brightness, and what it changes by with each parameter.
-pub const CHANNELS: usize = 16;
+/// Channels of a picture: brightness, and what it changes by with each parameter.
+pub const CHANNELS: usize = 12;
+
+/// Parameters with which the brightness of matter changes: spin, inclination, 1/r, index.
+pub const GLOWS: usize = 4;
+
+/// Parameters with which places move: those of the screen.
+pub const MOVERS: usize = 7;
+
+/// Numbers of a corner: brightness, what it changes by for the matter that is there, and by how much that moves.
+const NUMBERS: usize = 1 + GLOWS + 2 * MOVERS + 1;
 
 /// A corner of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Corner {
     /// Pixels from the top left corner, to the right and down.
     pub place: [f64; 2],
-    /// Numbers there.
-    pub values: [f64; CHANNELS],
+    numbers: [f64; NUMBERS],
+}
+
+impl Corner {
+    /// A corner whose matter has a brightness that changes by `glow` while it moves by `moves` pixels.
+    pub fn new(place: [f64; 2], light: f64, glow: [f64; GLOWS], moves: [[f64; 2]; MOVERS]) -> Self {
+        let mut numbers = [0.0; NUMBERS];
+        numbers[0] = light;
+        numbers[1..=GLOWS].copy_from_slice(&glow);
+        for (pair, moved) in numbers[1 + GLOWS..].chunks_exact_mut(2).zip(moves) {
+            pair.copy_from_slice(&moved);
+        }
+        Self { place, numbers }
+    }
+
+    /// Its brightness.
+    pub fn light(&self) -> f64 {
+        self.numbers[0]
+    }
+}
+
+/// Channels of the parameters in [`GLOWS`], and of those in [`MOVERS`].
+#[derive(Clone, Copy, Debug)]
+pub struct Layout {
+    /// Of the changes of the matter's brightness.
+    pub glows: [usize; GLOWS],
+    /// Of the moves.
+    pub movers: [usize; MOVERS],
 }
 
 /// What a picture collects.
@@ -17,8 +52,8 @@ pub struct Corner {
 pub struct Canvas {
     width: usize,
     height: usize,
-    /// How many channels are drawn.
-    channels: usize,
+    /// Where derivatives are put, if they are drawn.
+    layout: Option<Layout>,
     pixels: Vec<[f64; CHANNELS]>,
 }
 
@@ -83,8 +118,8 @@ impl Polygon {
 
 impl Canvas {
     /// A dark one.
-    pub fn new(width: usize, height: usize, channels: usize) -> Self {
-        Self { width, height, channels, pixels: vec![[0.0; CHANNELS]; width * height] }
+    pub fn new(width: usize, height: usize, layout: Option<Layout>) -> Self {
+        Self { width, height, layout, pixels: vec![[0.0; CHANNELS]; width * height] }
     }
 
     /// The channels of each pixel, the top row first.
@@ -134,18 +169,33 @@ impl Canvas {
         let [area, x, y] = piece.moments(plane.middle);
         let shares = plane.shares(area, [x, y]);
         let pixel = &mut self.pixels[pixel];
-        for channel in 0..self.channels {
-            let mut sum = 0.0;
+        let Some(layout) = &self.layout else {
             for (share, corner) in shares.iter().zip(corners) {
-                sum += share * corner.values[channel];
+                pixel[0] += share * corner.numbers[0];
             }
-            pixel[channel] += sum;
+            return;
+        };
+        let mut sums = [0.0; NUMBERS];
+        for (share, corner) in shares.iter().zip(corners) {
+            for (sum, number) in sums.iter_mut().zip(&corner.numbers) {
+                *sum += share * number;
+            }
+        }
+        let [along, across] = plane.slope(corners);
+        pixel[0] += sums[0];
+        // At a fixed place: what the matter's brightness changes by, less what comes by with its motion.
+        for (channel, sum) in layout.glows.iter().zip(&sums[1..]) {
+            pixel[*channel] += sum;
+        }
+        for (channel, moved) in layout.movers.iter().zip(sums[1 + GLOWS..].chunks_exact(2)) {
+            pixel[*channel] -= along * moved[0] + across * moved[1];
         }
     }
 
-    /// Draws a stretch of an edge, straight between two places: `sweep` is for each channel the area in pixels² that it sweeps
-    /// over, times the brightness on its side.
-    pub fn edge(&mut self, from: [f64; 2], to: [f64; 2], sweep: &[f64; CHANNELS]) {
+    /// Draws a stretch of an edge, straight between two places: at each end the brightness on its side, and the area in pixels² that
+    /// it sweeps over per change of each channel's parameter, as if all of it moved as that end.
+    pub fn edge(&mut self, ends: [([f64; 2], f64, [f64; CHANNELS]); 2]) {
+        let [(from, from_light, from_sweep), (to, to_light, to_sweep)] = ends;
         let mut cuts = [0.0; 64];
         let mut count = 1;
         for axis in 0..2 {
@@ -166,8 +216,13 @@ impl Canvas {
                 continue;
             }
             let pixel = &mut self.pixels[y as usize * self.width + x as usize];
-            for channel in 1..self.channels {
-                pixel[channel] += sweep[channel] * (pair[1] - pair[0]);
+            // A product of two linear functions: Simpson's rule is exact.
+            for (s, weight) in [(pair[0], 1.0), (middle, 4.0), (pair[1], 1.0)] {
+                let light = (from_light + s * (to_light - from_light)) * weight * (pair[1] - pair[0]) / 6.0;
+                for channel in 1..CHANNELS {
+                    pixel[channel] +=
+                        light * (from_sweep[channel] + s * (to_sweep[channel] - from_sweep[channel]));
+                }
             }
         }
     }
@@ -196,6 +251,15 @@ impl Plane {
         let per = if determinant > 1e-12 * xx * yy { determinant.recip() } else { 0.0 };
         let slopes = from.map(|[x, y]| [(yy * x - xy * y) * per, (xx * y - xy * x) * per]);
         Self { middle, slopes }
+    }
+
+    /// The slopes of the brightness.
+    fn slope(&self, corners: &[&Corner; 4]) -> [f64; 2] {
+        let mut slope = [0.0; 2];
+        for (share, corner) in self.slopes.iter().zip(corners) {
+            slope = [slope[0] + share[0] * corner.numbers[0], slope[1] + share[1] * corner.numbers[0]];
+        }
+        slope
     }
 
     /// What of each corner's value makes the integral over a piece.

@@ -196,7 +196,11 @@ impl Lines {
         let mut t = 0.5;
         for _ in 0..60 {
             let point = self.at(line, t);
-            if point.rho < rho { low = t } else { high = t }
+            if point.rho < rho {
+                low = t
+            } else {
+                high = t
+            }
             let width = self.outer[line][0] - self.inner;
             let step = (rho - point.rho) * point.slope[0] / width;
             if step.abs() < 1e-11 {

@@ -61,11 +61,7 @@ impl Matter {
                 let h = 1e-5 * x;
                 let slope = (at(x + h) - at(x - h)) / (2.0 * h);
                 let r = x.powi(-2);
-                matter.table.push([
-                    at(x),
-                    slope,
-                    (above.flux(r) - below.flux(r)) / (ends[1] - ends[0]),
-                ]);
+                matter.table.push([at(x), slope, (above.flux(r) - below.flux(r)) / (ends[1] - ends[0])]);
             }
         }
         matter
@@ -86,10 +82,7 @@ impl Matter {
                 let ([from, to], h) = ([&self.table[k], &self.table[k + 1]], self.per_step.recip());
                 // Hermite's cubic.
                 let rise = to[0] - from[0];
-                let (c, d) = (
-                    3.0 * rise - h * (2.0 * from[1] + to[1]),
-                    h * (from[1] + to[1]) - 2.0 * rise,
-                );
+                let (c, d) = (3.0 * rise - h * (2.0 * from[1] + to[1]), h * (from[1] + to[1]) - 2.0 * rise);
                 let flux = from[0] + s * (h * from[1] + s * (c + s * d));
                 let slope = (h * from[1] + s * (2.0 * c + 3.0 * s * d)) * self.per_step;
                 [flux, -0.5 * x.powi(3) * slope, from[2] + s * (to[2] - from[2]), 0.0]

@@ -7,8 +7,11 @@ mod order;
 mod picture;
 mod pieces;
 mod screen;
+mod source;
+mod start;
 
 pub use canvas::Canvas;
 pub use matter::Profile;
 pub use picture::{DRAWN, Fineness, Painter, Setting, Unseen};
 pub use screen::{Frame, Projection};
+pub use source::{Disk, Kind};

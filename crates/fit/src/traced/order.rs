@@ -155,7 +155,13 @@ pub fn solve(
 }
 
 /// Distances at t of the image, nearly: searched for by the light that arrives at infinity.
-fn beginnings(view: &View, order: usize, walks: &[Walk], angles: &[f64], t: f64) -> Result<Vec<f64>, NotFound> {
+fn beginnings(
+    view: &View,
+    order: usize,
+    walks: &[Walk],
+    angles: &[f64],
+    t: f64,
+) -> Result<Vec<f64>, NotFound> {
     let tracer = ClosedForm::new(view.spin, 12, 1000);
     let screen = Polar { spin: view.spin, inclination: view.inclination };
     let isoradials = Isoradials { tracer: &tracer, screen, order };
@@ -209,7 +215,13 @@ struct Solver<'a> {
 
 impl Solver<'_> {
     /// Solves node number `k` in all directions.
-    fn step(&mut self, walks: &mut [Walk], nodes: &mut Nodes, k: usize, guess: &[f64]) -> Result<(), NotFound> {
+    fn step(
+        &mut self,
+        walks: &mut [Walk],
+        nodes: &mut Nodes,
+        k: usize,
+        guess: &[f64],
+    ) -> Result<(), NotFound> {
         let t = node(k);
         let (center, moved) = self.view.center();
         let mut tries: Vec<Try> = walks

@@ -10,7 +10,7 @@ use std::sync::OnceLock;
 use kerrscope::spacetime::closed::Landings;
 use kerrscope::spacetime::kerr::Orbits;
 
-use super::canvas::{CHANNELS, Canvas, Corner};
+use super::canvas::{CHANNELS, Canvas, Corner, Layout, MOVERS};
 use super::lines::{Around, Basis, Lines, Point};
 use super::matter::{Matter, Profile};
 use super::order::{HOLE, NotFound, ORDERS, View, solve};
@@ -46,6 +46,9 @@ const AT_EDGES: usize = AT_HOLE + HOLE;
 const AT_INDEX: usize = AT_EDGES + 2;
 const AT_FRAME: usize = AT_INDEX + 1;
 
+/// Where derivatives are put.
+const LAYOUT: Layout = Layout { glows: [1, 2, 3, AT_INDEX], movers: [1, 2, 3, 7, 8, 9, 10] };
+
 /// How finely pictures are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fineness {
@@ -55,13 +58,22 @@ pub struct Fineness {
     pub step: f64,
     /// Steps of r as a share of the length over which the flux bends.
     pub bend: f64,
+    /// How many image orders, 1 to 4.
+    pub orders: usize,
 }
 
 impl Default for Fineness {
     /// Such that means over pixels are within 1e-3 of the brightest.
     fn default() -> Self {
-        Self { lines: 320, step: 0.03, bend: 0.06 }
+        Self { lines: 320, step: 0.03, bend: 0.06, orders: ORDERS }
     }
+}
+
+impl Fineness {
+    /// Such that means are within 3e-3 of the brightest, for pictures that are noisier.
+    pub const MEDIUM: Self = Self { lines: 160, step: 0.06, bend: 0.12, orders: 3 };
+    /// Enough to see what a picture is of: within some percent.
+    pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2 };
 }
 
 /// Numbers of directions in which images may be solved for, and up to which inclination the first are enough.
@@ -73,7 +85,6 @@ const CONVERGED: f64 = 3e-6;
 /// Draws disks.
 #[derive(Debug)]
 pub struct Painter {
-    size: [usize; 2],
     projection: Projection,
     opaque: bool,
     fineness: Fineness,
@@ -95,10 +106,9 @@ impl From<NotFound> for Unseen {
 }
 
 impl Painter {
-    /// For pictures of a width and a height in pixels.
-    pub fn new(size: [usize; 2], projection: Projection, opaque: bool, fineness: Fineness) -> Self {
+    /// Of disks that are opaque, or hold nothing back and show all of their orders.
+    pub fn new(projection: Projection, opaque: bool, fineness: Fineness) -> Self {
         Self {
-            size,
             projection,
             opaque,
             fineness,
@@ -131,7 +141,7 @@ impl Painter {
             moves[HOLE + 1] = -0.5 * outer_x / setting.outer;
             rates.edges[1] = Some(moves);
         }
-        let reach = self.reach(setting, &view);
+        let reach = Self::reach(setting, &view);
         // Images of higher orders have all of a disk without an outer edge next to the critical curve.
         let outer = |order: usize, chi: f64| match order {
             _ if bounded => outer_x,
@@ -141,18 +151,12 @@ impl Painter {
         let ends = [if bounded { outer_x } else { FAR_X }, inner];
         let matter = Matter::new(setting.spin, setting.profile, ends);
         let mut images = Vec::new();
-        for order in 0..ORDERS {
+        for order in 0..self.fineness.orders.min(ORDERS) {
             images.push(self.image(&view, order, inner, &|chi| outer(order, chi))?);
         }
-        let sketch = Sketch {
-            above,
-            setting,
-            view: &view,
-            screen: &screen,
-            matter: &matter,
-            channels: if derivatives { DRAWN } else { 1 },
-        };
-        let mut canvas = Canvas::new(self.size[0], self.size[1], sketch.channels);
+        let sketch = Sketch { above, setting, view: &view, screen: &screen, matter: &matter, derivatives };
+        let size = setting.frame.size;
+        let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
         for (order, image) in images.iter().enumerate() {
             let before = if self.opaque { &images[..order] } else { &[] };
             let rows = thinned(&self.rows(&matter, [inner, outer(order, 0.0)]), order);
@@ -162,9 +166,9 @@ impl Painter {
     }
 
     /// M from the middle of the polar coordinates to the picture's farthest corner.
-    fn reach(&self, setting: &Setting, view: &View) -> f64 {
-        let Frame { scale, center, .. } = setting.frame;
-        let half = [0, 1].map(|k| 0.5 * self.size[k] as f64 + center[k].abs());
+    fn reach(setting: &Setting, view: &View) -> f64 {
+        let Frame { size, scale, center, .. } = setting.frame;
+        let half = [0, 1].map(|k| 0.5 * size[k] as f64 + center[k].abs());
         half[0].hypot(half[1]) * scale + view.center().0.abs()
     }
 
@@ -214,7 +218,9 @@ impl Painter {
             while k + 1 < GRID && sums[k + 1] < target {
                 k += 1;
             }
-            rows.push(((k as f64 + (target - sums[k]) / (sums[k + 1] - sums[k])) / GRID as f64).clamp(0.0, 1.0));
+            rows.push(
+                ((k as f64 + (target - sums[k]) / (sums[k + 1] - sums[k])) / GRID as f64).clamp(0.0, 1.0),
+            );
         }
         rows
     }
@@ -244,9 +250,10 @@ impl Painter {
             let strip = |line: usize| {
                 let bounds = stretches[line][rank];
                 if before.is_empty() {
-                    let corners = bases.iter().zip(rows).map(|(basis, t)| {
-                        sketch.corner(image, line, &image.along(line, *t, basis))
-                    });
+                    let corners = bases
+                        .iter()
+                        .zip(rows)
+                        .map(|(basis, t)| sketch.corner(image, line, &image.along(line, *t, basis)));
                     return Strip { bounds, line, corners: corners.collect() };
                 }
                 let [from, to] = bounds.map(|bound| image.find(line, bound.rho));
@@ -263,7 +270,7 @@ impl Painter {
                 for (low, high) in last.corners.windows(2).zip(next.corners.windows(2)) {
                     canvas.cell([&low[0], &low[1], &high[1], &high[0]]);
                 }
-                if sketch.channels > 1 {
+                if sketch.derivatives {
                     sketch.sweep(image, &last, &next, canvas);
                 }
                 last = next;
@@ -312,7 +319,7 @@ struct Sketch<'a> {
     view: &'a View,
     screen: &'a Screen,
     matter: &'a Matter,
-    channels: usize,
+    derivatives: bool,
 }
 
 /// A line with its corners.
@@ -345,31 +352,29 @@ impl Sketch<'_> {
         let sin_i = self.setting.inclination.sin();
         let glow = self.matter.glow(point.x, -impact[0] * sin_i);
         let spot = self.screen.spot(impact);
-        let mut values = [0.0; CHANNELS];
-        values[0] = glow.value;
-        if self.channels == 1 {
-            return Corner { place: spot.pixel, values };
+        if !self.derivatives {
+            return Corner::new(spot.pixel, glow.value, [0.0; 4], [[0.0; 2]; MOVERS]);
         }
-        let rate = -2.0 * point.x.powi(-3);
-        let (outwards, around) = (rate * point.slope[0], rate * point.slope[1] / point.rho);
-        let slope = [outwards * cos - around * sin, outwards * sin + around * cos];
+        // The matter keeps its radius and its direction ψ.
+        let mut glows = [glow.spin, 0.0, 0.0, glow.index];
+        let mut moves = [[0.0; 2]; MOVERS];
+        // ∂(α, β)/∂(pixel), inverted.
+        let [[xx, yx], [xy, yy]] = [spot.drift[4].map(|c| -c), spot.drift[5]];
+        let determinant = xx * yy - xy * yx;
         for (k, drift) in spot.drift.iter().enumerate() {
-            let mut moved = *drift;
+            let mut own = [0.0; 2];
             if k < HOLE {
                 let along = self.own(k, point.drift[k]);
-                moved = [moved[0] - center_moves[k] - along * cos, moved[1] - along * sin];
+                own = [center_moves[k] + along * cos, along * sin];
+                glows[k] -= glow.lambda * sin_i * own[0];
             }
-            let radius = slope[0] * moved[0] + slope[1] * moved[1];
-            let mut lambda = -sin_i * drift[0];
             if k == 1 {
-                lambda -= impact[0] * self.setting.inclination.cos();
+                glows[1] -= glow.lambda * impact[0] * self.setting.inclination.cos();
             }
-            let channel = if k < HOLE { AT_HOLE + k } else { AT_FRAME + k - HOLE };
-            values[channel] = glow.radius * radius + glow.lambda * lambda;
+            let [x, y] = [own[0] - drift[0], own[1] - drift[1]];
+            moves[k] = [(yy * x - xy * y) / determinant, (xx * y - yx * x) / determinant];
         }
-        values[AT_HOLE] += glow.spin;
-        values[AT_INDEX] = glow.index;
-        Corner { place: spot.pixel, values }
+        Corner::new(spot.pixel, glow.value, glows, moves)
     }
 
     /// What both edges sweep over between two lines.
@@ -377,18 +382,22 @@ impl Sketch<'_> {
         let (center, center_moves) = self.center();
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let ends = [from, to];
-            let corners = ends.map(|strip| if side == 0 { &strip.corners[0] } else { &strip.corners[strip.corners.len() - 1] });
+            let corners =
+                ends.map(
+                    |strip| {
+                        if side == 0 { &strip.corners[0] } else { &strip.corners[strip.corners.len() - 1] }
+                    },
+                );
             let bounds = ends.map(|strip| strip.bounds[side]);
-            let light = 0.5 * (corners[0].values[0] + corners[1].values[0]);
-            let mut sweep = [0.0; CHANNELS];
             let rays = ends.map(|strip| image.rays[strip.line]);
             let impact = [0, 1].map(|k| [center + bounds[k].rho * rays[k][0], bounds[k].rho * rays[k][1]]);
             let along = [impact[1][0] - impact[0][0], impact[1][1] - impact[0][1]];
-            for k in 0..2 {
+            let ends = [0, 1].map(|k| {
+                let mut sweep = [0.0; CHANNELS];
                 let [cos, sin, ..] = rays[k];
                 let drift = self.screen.spot(impact[k]).drift;
                 let pixel = (drift[4][0] * drift[5][1] - drift[4][1] * drift[5][0]).abs();
-                let area = |[x, y]: [f64; 2]| 0.5 * sign * light * (x * along[1] - y * along[0]) / pixel;
+                let area = |[x, y]: [f64; 2]| sign * (x * along[1] - y * along[0]) / pixel;
                 for p in 0..SCREEN {
                     let mut moved = [-drift[p][0], -drift[p][1]];
                     if p < HOLE {
@@ -402,8 +411,9 @@ impl Sketch<'_> {
                     let outwards = bounds[k].moves[p];
                     sweep[AT_EDGES + p - HOLE] += area([outwards * cos, outwards * sin]);
                 }
-            }
-            canvas.edge(corners[0].place, corners[1].place, &sweep);
+                (corners[k].place, corners[k].light(), sweep)
+            });
+            canvas.edge(ends);
         }
     }
 }

@@ -26,7 +26,7 @@ pub enum Projection {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Width and height in pixels.
-    pub size: [f64; 2],
+    pub size: [usize; 2],
     /// M in a pixel, at the distance of the hole.
     pub scale: f64,
     /// Where −e_r is, in pixels from the middle of the picture to the right and up.
@@ -78,6 +78,7 @@ impl Screen {
     }
 
     /// Direction times r, (right, up), from a place in M from the centre.
+    #[cfg(test)]
     fn direction(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         if self.u == 0.0 {
             return [x, y];
@@ -146,8 +147,8 @@ impl Screen {
         let up = self.side * beta * self.stretch[1].value;
         let place = self.place([cos * along + sin * up, cos * up - sin * along]);
         let pixel = [
-            0.5 * size[0] + center[0] + place[0] / scale,
-            0.5 * size[1] - center[1] - place[1] / scale,
+            0.5 * size[0] as f64 + center[0] + place[0] / scale,
+            0.5 * size[1] as f64 - center[1] - place[1] / scale,
         ];
         let [right, upward, outward] = self.slopes(place);
         // What a change of the direction, times r, does to α and β at a fixed pixel.
@@ -155,17 +156,12 @@ impl Screen {
             let (along, up) = (cos * x - sin * y, sin * x + cos * y);
             [along / self.stretch[0].value, self.side * up / self.stretch[1].value]
         };
-        let moved = |[x, y]: [f64; 2]| {
-            impact([right[0] * x + right[1] * y, upward[0] * x + upward[1] * y])
-        };
+        let moved = |[x, y]: [f64; 2]| impact([right[0] * x + right[1] * y, upward[0] * x + upward[1] * y]);
         let mut drift = [[0.0; 2]; SCREEN];
         for (k, drift) in drift.iter_mut().take(3).enumerate() {
-            let [stretch_along, stretch_up] =
-                self.stretch.map(|stretch| stretch.gradient[k] / stretch.value);
-            *drift = [
-                self.offset.gradient[k] - (alpha - self.offset.value) * stretch_along,
-                -beta * stretch_up,
-            ];
+            let [stretch_along, stretch_up] = self.stretch.map(|stretch| stretch.gradient[k] / stretch.value);
+            *drift =
+                [self.offset.gradient[k] - (alpha - self.offset.value) * stretch_along, -beta * stretch_up];
         }
         let farther = impact(outward);
         drift[2] = [drift[2][0] + farther[0], drift[2][1] + farther[1]];
@@ -177,12 +173,13 @@ impl Screen {
         Spot { pixel, drift }
     }
 
+    #[cfg(test)]
     /// Impact parameters (α, β) that are seen at a place of the picture, in pixels from the top left corner.
     pub fn impact(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let Frame { size, scale, center, .. } = self.frame;
         let [right, up] = self.direction([
-            (x - 0.5 * size[0] - center[0]) * scale,
-            (0.5 * size[1] - center[1] - y) * scale,
+            (x - 0.5 * size[0] as f64 - center[0]) * scale,
+            (0.5 * size[1] as f64 - center[1] - y) * scale,
         ]);
         let [cos, sin] = self.roll;
         let [along, up] = [cos * right - sin * up, sin * right + cos * up];
@@ -194,8 +191,7 @@ impl Screen {
 mod tests {
     use super::*;
 
-    const FRAME: Frame =
-        Frame { size: [64.0, 48.0], scale: 0.3, center: [1.5, -2.0], position_angle: 0.7 };
+    const FRAME: Frame = Frame { size: [64, 48], scale: 0.3, center: [1.5, -2.0], position_angle: 0.7 };
 
     /// There and back, and drifts against differences, at finite and infinite distance, from above and from below.
     #[test]
@@ -225,7 +221,11 @@ mod tests {
                     for c in 0..2 {
                         let difference = (high[c] - low[c]) / (2.0 * step);
                         let error = (spot.drift[k][c] - difference).abs();
-                        assert!(error < 1e-6 * (1.0 + difference.abs()), "{k} {c}: {:?} {difference}", spot.drift[k]);
+                        assert!(
+                            error < 1e-6 * (1.0 + difference.abs()),
+                            "{k} {c}: {:?} {difference}",
+                            spot.drift[k]
+                        );
                     }
                 }
             }

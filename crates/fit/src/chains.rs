@@ -1,0 +1,307 @@
+//! Chains of draws from a posterior.
+//!
+//! Chains begin around the modes, drawn with a wider spread, and go on by the No-U-Turn Sampler in coordinates in which the posterior is
+//! nearly a standard Gaussian: at first those of the best mode, then those of the draws themselves. Where there are several modes each
+//! draw is followed by a proposal from the mixture of Student's distributions around them (four degrees of freedom), accepted by
+//! Metropolis & Hastings, so that chains change between modes as often as their weights ask for.
+//!
+//! A round of draws is a function of the round before and of the seed, whatever the number of threads.
+
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_distr::{ChiSquared, Distribution, StandardNormal};
+use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::likelihood::{Ask, Posterior};
+use crate::mode::Mode;
+use crate::model::Source;
+use crate::nuts::{Pace, State, step};
+
+/// Chains.
+pub const CHAINS: usize = 4;
+
+/// Degrees of freedom of proposals between modes.
+const FREEDOM: f64 = 4.0;
+
+/// Draws of the first rounds, which are not kept: with the coordinates of the mode, and with those of the draws.
+const WARM: [usize; 3] = [25, 35, 25];
+
+/// Draws of a round of each chain.
+pub const ROUND: usize = 50;
+
+/// Where a chain is.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Chain {
+    state: State,
+    pace: Pace,
+    round: u64,
+}
+
+/// What a round of a chain gave.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+pub struct Draws {
+    /// Coordinates.
+    pub places: Vec<Vec<f64>>,
+    /// Logarithm of the posterior's density.
+    pub logs: Vec<f64>,
+    /// Logarithm of the likelihood.
+    pub accepted: f64,
+    /// Trajectories that went astray.
+    pub diverged: usize,
+    /// Evaluations of the model.
+    pub evaluations: usize,
+    /// Changes between modes that were accepted.
+    pub jumps: usize,
+}
+
+/// Coordinates in which chains are run: q = origin + matrix · y.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Metric {
+    origin: Vec<f64>,
+    matrix: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+}
+
+impl Metric {
+    fn of(origin: Vec<f64>, matrix: DMatrix<f64>) -> Self {
+        let n = matrix.nrows();
+        let inverse = matrix.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
+        Self { origin, matrix, inverse }
+    }
+
+    /// That of the Gaussian around a mode.
+    fn around(mode: &Mode) -> Self {
+        let n = mode.place.len();
+        let mut matrix = DMatrix::zeros(n, n);
+        for k in 0..n {
+            let mut unit = vec![0.0; n];
+            unit[k] = 1.0;
+            let moved = mode.at(&unit);
+            for row in 0..n {
+                matrix[(row, k)] = moved[row] - mode.place[row];
+            }
+        }
+        Self::of(mode.place.clone(), matrix)
+    }
+
+    /// That of draws, with the present one counting as some of them.
+    fn from_draws(&self, places: &[Vec<f64>]) -> Self {
+        let n = self.origin.len();
+        let count = places.len() as f64;
+        let inner: Vec<DVector<f64>> = places.iter().map(|q| self.inside(q)).collect();
+        let mean: DVector<f64> = inner.iter().fold(DVector::zeros(n), |sum, y| sum + y) / count;
+        let mut covariance = DMatrix::identity(n, n) * (10.0 / (count + 10.0));
+        for y in &inner {
+            let offset = y - &mean;
+            covariance += &offset * offset.transpose() / (count + 10.0);
+        }
+        let lower = crate::mode::factor(covariance).l();
+        let origin = self.outside(mean.as_slice());
+        Self::of(origin, &self.matrix * lower)
+    }
+
+    fn outside(&self, y: &[f64]) -> Vec<f64> {
+        let moved = &self.matrix * DVector::from_column_slice(y);
+        self.origin.iter().zip(moved.iter()).map(|(a, b)| a + b).collect()
+    }
+
+    fn inside(&self, q: &[f64]) -> DVector<f64> {
+        let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.origin).map(|(a, b)| a - b));
+        &self.inverse * offset
+    }
+}
+
+/// All chains after a round.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Chains {
+    metric: Metric,
+    chains: Vec<Chain>,
+    /// Rounds done, those that are not kept among them.
+    pub rounds: u64,
+}
+
+/// What chains are run over.
+pub struct Field<'a, S> {
+    /// The posterior.
+    pub posterior: &'a Posterior<'a, S>,
+    /// Its modes, the best first.
+    pub modes: &'a [Mode],
+    /// Seed of all random numbers.
+    pub seed: u64,
+}
+
+impl<S: Source> Field<'_, S> {
+    fn rng(&self, round: u64, chain: usize) -> Pcg64Mcg {
+        Pcg64Mcg::seed_from_u64(kerrscope::random::mix(
+            self.seed ^ kerrscope::random::mix(round * 64 + chain as u64),
+        ))
+    }
+
+    /// Chains at their beginnings; none if the model has no picture anywhere near.
+    pub fn begin(&self) -> Option<Chains> {
+        let metric = Metric::around(self.modes.first()?);
+        let chains: Option<Vec<Chain>> = (0..CHAINS)
+            .into_par_iter()
+            .map(|number| {
+                let mut rng = self.rng(0, number);
+                for attempt in 0..40 {
+                    let wide = if attempt < 20 { 1.3 } else { 0.3 };
+                    let mode = self.chosen(&mut rng);
+                    let z: Vec<f64> = mode
+                        .place
+                        .iter()
+                        .map(|_| wide * Distribution::<f64>::sample(&StandardNormal, &mut rng))
+                        .collect();
+                    if let Some(state) = self.state(&metric, &mode.at(&z)) {
+                        return Some(Chain { state, pace: Pace::new(0.6), round: 0 });
+                    }
+                }
+                None
+            })
+            .collect();
+        Some(Chains { metric, chains: chains?, rounds: 0 })
+    }
+
+    /// A mode, by its weight.
+    fn chosen(&self, rng: &mut Pcg64Mcg) -> &Mode {
+        let weights = self.weights();
+        let mut rest: f64 = rng.random();
+        for (mode, weight) in self.modes.iter().zip(&weights) {
+            rest -= weight;
+            if rest <= 0.0 {
+                return mode;
+            }
+        }
+        &self.modes[0]
+    }
+
+    fn weights(&self) -> Vec<f64> {
+        let logs: Vec<f64> = self.modes.iter().map(Mode::evidence).collect();
+        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        // None is so improbable that it is never tried.
+        let weights: Vec<f64> = logs.iter().map(|log| (log - top).exp().max(0.02)).collect();
+        let sum: f64 = weights.iter().sum();
+        weights.iter().map(|weight| weight / sum).collect()
+    }
+
+    fn state(&self, metric: &Metric, q: &[f64]) -> Option<State> {
+        let found = self.posterior.at(q, Ask::Gradient)?;
+        let gradient = metric.matrix.tr_mul(&DVector::from_column_slice(&found.gradient));
+        Some(State {
+            z: metric.inside(q).as_slice().to_vec(),
+            log: found.log,
+            gradient: gradient.as_slice().to_vec(),
+        })
+    }
+
+    /// The next round of all chains, and its draws; those of warming up, which do not count, are empty.
+    pub fn go_on(&self, mut chains: Chains, cancelled: &(dyn Fn() -> bool + Sync)) -> (Chains, Vec<Draws>) {
+        let round = chains.rounds;
+        let warm = WARM.get(round as usize).copied();
+        let metric = chains.metric.clone();
+        let mut draws: Vec<Draws> = chains
+            .chains
+            .par_iter_mut()
+            .enumerate()
+            .map(|(number, chain)| self.run(&metric, chain, number, round + 1, warm, cancelled))
+            .collect();
+        if round == 1 {
+            // The coordinates of the draws, and everything anew in these.
+            let places: Vec<Vec<f64>> = draws.iter().flat_map(|d| d.places.iter().cloned()).collect();
+            let next = metric.from_draws(&places);
+            for chain in &mut chains.chains {
+                let q = metric.outside(&chain.state.z);
+                if let Some(state) = self.state(&next, &q) {
+                    chain.state = state;
+                }
+                chain.pace = Pace::new(0.7);
+            }
+            chains.metric = next;
+        }
+        if warm.is_some() {
+            for d in &mut draws {
+                *d = Draws { evaluations: d.evaluations, ..Draws::default() };
+            }
+        }
+        chains.rounds += 1;
+        (chains, draws)
+    }
+
+    fn run(
+        &self,
+        metric: &Metric,
+        chain: &mut Chain,
+        number: usize,
+        round: u64,
+        warm: Option<usize>,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Draws {
+        let mut rng = self.rng(round, number);
+        let mut draws = Draws::default();
+        let mut target = |y: &[f64]| {
+            let found = self.posterior.at(&metric.outside(y), Ask::Gradient)?;
+            let gradient = metric.matrix.tr_mul(&DVector::from_column_slice(&found.gradient));
+            Some((found.log, gradient.as_slice().to_vec()))
+        };
+        for _ in 0..warm.unwrap_or(ROUND) {
+            if cancelled() {
+                break;
+            }
+            let size = if warm.is_some() { chain.pace.size() } else { chain.pace.settled() };
+            // Steps of many sizes: trajectories of one length may be periodic.
+            let size = size * (0.9 + 0.2 * rng.random::<f64>());
+            let (state, step) = step(&mut target, &chain.state, size, &mut rng);
+            chain.state = state;
+            if warm.is_some() {
+                chain.pace.learn(step.acceptance);
+            }
+            draws.evaluations += step.evaluations;
+            draws.diverged += usize::from(step.diverged);
+            draws.accepted += step.acceptance;
+            if self.modes.len() > 1 {
+                draws.evaluations += 1;
+                draws.jumps += usize::from(self.jump(metric, chain, &mut rng));
+            }
+            draws.places.push(metric.outside(&chain.state.z));
+            draws.logs.push(chain.state.log);
+        }
+        draws
+    }
+
+    /// Tries to change to a place that is drawn from around all modes.
+    fn jump(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) -> bool {
+        let mode = self.chosen(rng);
+        let stretch = ChiSquared::new(FREEDOM)
+            .map_or(1.0, |chi| (FREEDOM / Distribution::<f64>::sample(&chi, rng).max(1e-3)).sqrt());
+        let z: Vec<f64> =
+            mode.place.iter().map(|_| stretch * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
+        let (from, to) = (metric.outside(&chain.state.z), mode.at(&z));
+        let chance: f64 = rng.random();
+        let Some(state) = self.state(metric, &to) else { return false };
+        let gain = state.log - chain.state.log + self.density(&from) - self.density(&to);
+        let accepted = chance.ln() < gain;
+        if accepted {
+            chain.state = state;
+        }
+        accepted
+    }
+
+    /// The logarithm of the density of proposals: Σ w_k t(Lᵀ(q − q_k)) det L.
+    fn density(&self, q: &[f64]) -> f64 {
+        let n = q.len() as f64;
+        let logs: Vec<f64> = self
+            .modes
+            .iter()
+            .zip(self.weights())
+            .map(|(mode, weight)| {
+                let square = mode.standard(q).norm_squared();
+                let half: f64 = mode.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+                weight.ln() + half - 0.5 * (FREEDOM + n) * (1.0 + square / FREEDOM).ln()
+            })
+            .collect();
+        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        top + logs.iter().map(|log| (log - top).exp()).sum::<f64>().ln()
+    }
+}

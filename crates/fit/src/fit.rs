@@ -1,0 +1,464 @@
+//! From a picture to what is known of its parameters.
+
+use rayon::prelude::*;
+use thiserror::Error;
+
+use crate::chains::{CHAINS, Chains, Draws, Field, ROUND};
+use crate::coordinates::Coordinates;
+use crate::likelihood::{Ask, Noise, Posterior, Unknown};
+use crate::mode::{Mode, climb};
+use crate::model::{Freedom, Parameter, Prediction, Source};
+use crate::noise;
+use crate::observed::Observed;
+use crate::reduce::reduced;
+use crate::summary::Estimate;
+use crate::verdict;
+
+/// A picture to fit.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// Means over the pixels, along the rows, the top one first.
+    pub values: Vec<f64>,
+    /// Width and height.
+    pub size: [usize; 2],
+    /// Angle of a pixel on the sky, µas, if it is known.
+    pub pixel: Option<f64>,
+}
+
+/// How a fit is done.
+pub struct Options<'a> {
+    /// What is known of each parameter of the model, in their order.
+    pub freedoms: Vec<Freedom>,
+    /// Standard deviation of each pixel's noise; none if it is to be found.
+    pub noise: Option<f64>,
+    /// Seed of all random numbers.
+    pub seed: u64,
+    /// Rounds of [`ROUND`] draws of each chain at most. Fewer are enough when R̂ < 1.01 and 400 effective draws are reached.
+    pub rounds: u64,
+    /// Where to begin, besides where the model itself would: all parameters.
+    pub starts: Vec<Vec<f64>>,
+    /// Is told what is being done.
+    pub progress: &'a (dyn Fn(&str) + Sync),
+    /// Whether to stop.
+    pub cancelled: &'a (dyn Fn() -> bool + Sync),
+    /// Keeps a round of chains under its number; and gives what was kept.
+    pub keeper: Option<&'a dyn Keeper>,
+}
+
+/// What keeps rounds of chains, so that an interrupted fit goes on.
+pub trait Keeper {
+    /// What was kept of a round.
+    fn kept(&self, round: u64) -> Option<Vec<u8>>;
+    /// Keeps a round.
+    ///
+    /// # Errors
+    /// If it cannot.
+    fn keep(&self, round: u64, contents: &[u8]) -> Result<(), String>;
+}
+
+/// Convergence that is aimed at: R̂, and the effective number of draws.
+pub const AIM: (f64, f64) = (1.01, 400.0);
+
+/// Why there is no fit.
+#[derive(Clone, Debug, Error, PartialEq)]
+pub enum FitError {
+    /// The picture is the same everywhere.
+    #[error("all pixels of the picture are {0}: there is nothing to fit")]
+    Constant(f64),
+    /// There are too few pixels.
+    #[error("the picture has {0} × {1} pixels: 8 × 8 at least are needed")]
+    Small(usize, usize),
+    /// A pixel is not a number.
+    #[error(
+        "{count} pixels are not finite numbers, the first of them in column {column}, row {row}, counted from the top left"
+    )]
+    NotFinite {
+        /// How many.
+        count: usize,
+        /// Its column.
+        column: usize,
+        /// Its row.
+        row: usize,
+    },
+    /// The model has no picture near the data.
+    #[error(
+        "no parameters were found with which the model has a picture: fix some with --fix, or give priors"
+    )]
+    NoStart,
+    /// It was stopped.
+    #[error("stopped")]
+    Cancelled,
+    /// What is kept could not be written.
+    #[error("{0}")]
+    Keeper(String),
+}
+
+/// What was found.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// All parameters, then what follows from them.
+    pub estimates: Vec<Estimate>,
+    /// Whether chains became one and are worth enough draws.
+    pub converged: bool,
+    /// What is to be minded.
+    pub warnings: Vec<String>,
+    /// Whether the model describes the picture.
+    pub good: bool,
+    /// Σ (d − m)²/σ² where the posterior is highest.
+    pub chi2: f64,
+    /// Pixels less free parameters.
+    pub degrees: usize,
+    /// The share of the picture's variance that is explained.
+    pub explained: f64,
+    /// Logarithm of the evidence by the Gaussian around the best mode, constants of the likelihood included.
+    pub evidence: f64,
+    /// Evaluations of the model.
+    pub evaluations: usize,
+    /// The picture where the posterior is highest.
+    pub best: Prediction,
+    /// Standard deviation of each pixel's error there.
+    pub errors: Vec<f64>,
+    /// Draws: for each chain, for each draw, all free parameters.
+    pub draws: Vec<Vec<Vec<f64>>>,
+    /// Their names and units.
+    pub free: Vec<(String, String)>,
+    /// Logarithm of the posterior's density of each draw.
+    pub logs: Vec<Vec<f64>>,
+    /// Trajectories that went astray.
+    pub diverged: usize,
+}
+
+/// Models of three finenesses: to look around with, for noisy pictures, and for all others.
+pub trait Models: Sync {
+    /// The light.
+    fn source(&self, fineness: usize) -> Box<dyn Source>;
+}
+
+/// Pixels across the pictures with which modes are looked for.
+const SMALL: usize = 48;
+
+/// Noise above this share of the brightest pixel lets a coarser model do.
+const NOISY: f64 = 0.01;
+
+/// Modes that are followed, and how much less probable than the best they may be.
+const MODES: usize = 6;
+const FORGOTTEN: f64 = 12.0;
+
+/// Fits a model to a picture.
+///
+/// # Errors
+/// If there is nothing to fit, or it was stopped.
+pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<Fit, FitError> {
+    check(image)?;
+    let peak = noise::peak(&image.values);
+    let assumed = noise::assume(&image.values, image.size, options.noise);
+    let level = options.noise.unwrap_or_else(|| noise::estimate(&image.values, image.size));
+    let fineness = if level > NOISY * peak { 1 } else { 2 };
+    let model = Observed::new(models.source(fineness), image.size);
+    let sizes: Vec<f64> = model
+        .parameters()
+        .iter()
+        .map(|p| if p.name == "flux" { image.values.iter().map(|v| v.abs()).sum::<f64>() } else { peak })
+        .collect();
+    let coordinates = Coordinates::new(model.parameters(), &options.freedoms, &sizes);
+    let posterior =
+        Posterior { model: &model, data: &image.values, noise: &assumed, coordinates: &coordinates };
+    (options.progress)("looking for modes");
+    let (modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
+    let mut chains = field.begin().ok_or(FitError::NoStart)?;
+    let mut all: Vec<Draws> = vec![Draws::default(); CHAINS];
+    let names = names(&model, &coordinates, assumed.unknown.is_some());
+    let mut estimates = Vec::new();
+    let mut kept_rounds = 0;
+    loop {
+        let draws = round(&field, &mut chains, options)?;
+        evaluations += draws.iter().map(|d| d.evaluations).sum::<usize>();
+        for (all, draws) in all.iter_mut().zip(draws) {
+            all.places.extend(draws.places);
+            all.logs.extend(draws.logs);
+            all.diverged += draws.diverged;
+        }
+        let count = all[0].places.len();
+        (options.progress)(&format!("{} draws of {CHAINS} chains", count));
+        if count < 2 * ROUND {
+            continue;
+        }
+        kept_rounds += 1;
+        estimates = summarise(&model, &posterior, &modes[0], &all, image.pixel);
+        let done = estimates.iter().all(|estimate| estimate.converged(AIM.0, AIM.1));
+        if done || kept_rounds + 1 >= options.rounds {
+            break;
+        }
+    }
+    let values: Vec<Vec<Vec<f64>>> =
+        all.iter().map(|draws| draws.places.iter().map(|q| posterior.values(q)).collect()).collect();
+    let best = model
+        .predict(&modes[0].evaluation.values[..model.parameters().len()], false)
+        .map_err(|_| FitError::NoStart)?;
+    let mut fit = Fit {
+        converged: estimates.iter().all(|estimate| estimate.converged(AIM.0, AIM.1)),
+        estimates,
+        warnings: Vec::new(),
+        good: true,
+        chi2: modes[0].evaluation.chi2,
+        degrees: image.values.len().saturating_sub(posterior.count()),
+        explained: 0.0,
+        evidence: modes[0].evidence(),
+        evaluations,
+        errors: errors(&assumed, &modes[0].evaluation.values),
+        best,
+        draws: values
+            .iter()
+            .map(|chain| chain.iter().map(|v| names.iter().map(|(k, _)| v[*k]).collect()).collect())
+            .collect(),
+        free: names.into_iter().map(|(_, name)| name).collect(),
+        logs: all.iter().map(|draws| draws.logs.clone()).collect(),
+        diverged: all.iter().map(|draws| draws.diverged).sum(),
+    };
+    let known = (model.parameters(), options.freedoms.as_slice());
+    verdict::judge(&mut fit, image, known, modes.len(), noise::estimate(&image.values, image.size));
+    Ok(fit)
+}
+
+fn check(image: &Image) -> Result<(), FitError> {
+    let [width, height] = image.size;
+    if width < 8 || height < 8 {
+        return Err(FitError::Small(width, height));
+    }
+    let wrong = |value: &&f64| !value.is_finite();
+    if let Some(first) = image.values.iter().position(|value| !value.is_finite()) {
+        let count = image.values.iter().filter(wrong).count();
+        return Err(FitError::NotFinite { count, column: first % width, row: first / width });
+    }
+    let first = image.values[0];
+    if image.values.iter().all(|value| *value == first) { Err(FitError::Constant(first)) } else { Ok(()) }
+}
+
+fn errors(noise: &Noise, values: &[f64]) -> Vec<f64> {
+    noise.variances(values.last().copied().unwrap_or(0.0)).into_iter().map(f64::sqrt).collect()
+}
+
+/// The next round, done or kept.
+fn round(
+    field: &Field<'_, Box<dyn Source>>,
+    chains: &mut Chains,
+    options: &Options<'_>,
+) -> Result<Vec<Draws>, FitError> {
+    let number = chains.rounds;
+    let kept = options.keeper.and_then(|keeper| keeper.kept(number));
+    if let Some((after, draws)) =
+        kept.and_then(|kept| serde_json::from_slice::<(Chains, Vec<Draws>)>(&kept).ok())
+    {
+        *chains = after;
+        return Ok(draws);
+    }
+    let (after, draws) = field.go_on(chains.clone(), options.cancelled);
+    if (options.cancelled)() {
+        return Err(FitError::Cancelled);
+    }
+    if let Some(keeper) = options.keeper {
+        let contents = serde_json::to_vec(&(&after, &draws)).map_err(|e| FitError::Keeper(e.to_string()))?;
+        keeper.keep(number, &contents).map_err(FitError::Keeper)?;
+    }
+    *chains = after;
+    Ok(draws)
+}
+
+/// Modes of the posterior, the best first: found in a picture of fewer pixels with a coarser model, then climbed again.
+fn modes(
+    image: &Image,
+    models: &dyn Models,
+    options: &Options<'_>,
+    posterior: &Posterior<'_, Box<dyn Source>>,
+    sizes: &[f64],
+) -> Result<(Vec<Mode>, usize), FitError> {
+    let factor = image.size[0].max(image.size[1]).div_ceil(SMALL).max(1);
+    let (small, size) = reduced(&image.values, image.size, factor);
+    let sketch = Observed::new(models.source(0), size);
+    let parameters = posterior.model.parameters();
+    let shrink = |value: f64, parameter: &Parameter, power: i32| {
+        value * (factor as f64).powi(-power * parameter.pixels)
+    };
+    let freedoms: Vec<Freedom> = options
+        .freedoms
+        .iter()
+        .zip(parameters)
+        .map(|(freedom, parameter)| match freedom {
+            Freedom::Fixed(value) => Freedom::Fixed(shrink(*value, parameter, 1)),
+            free @ Freedom::Free(_) => *free,
+        })
+        .collect();
+    // Priors are for the picture's own pixels; to look around, bounds are enough.
+    let loose: Vec<Freedom> =
+        if factor == 1 { options.freedoms.clone() } else { loosened(&freedoms, parameters) };
+    let coordinates = Coordinates::new(sketch.parameters(), &loose, sizes);
+    let peak = noise::peak(&small);
+    let unknown = Unknown { pattern: vec![1.0; small.len()], guess: 0.02 * peak, spread: f64::INFINITY };
+    let rough = Noise { known: vec![0.02 * peak; small.len()], unknown: Some(unknown) };
+    let near = Posterior { model: &sketch, data: &small, noise: &rough, coordinates: &coordinates };
+    let flux: f64 = image.values.iter().sum();
+    let mut starts: Vec<Vec<f64>> = options.starts.clone();
+    for own in posterior.model.source().starts(&image.values, image.size) {
+        let mut start = own;
+        start.extend([2.0, flux, 0.0]);
+        starts.push(start);
+    }
+    for start in &mut starts {
+        for (value, freedom) in start.iter_mut().zip(&options.freedoms) {
+            if let Freedom::Fixed(fixed) = freedom {
+                *value = *fixed;
+            }
+        }
+    }
+    let mut rough_modes: Vec<(f64, Vec<f64>, usize)> = starts
+        .par_iter()
+        .filter_map(|start| {
+            if (options.cancelled)() {
+                return None;
+            }
+            let values: Vec<f64> = start.iter().zip(parameters).map(|(v, p)| shrink(*v, p, 1)).collect();
+            let mut q = coordinates.of(&values);
+            q.push(0.0);
+            let mode = climb(&near, &q, 30)?;
+            let values = &mode.evaluation.values[..parameters.len()];
+            let back = values.iter().zip(parameters).map(|(v, p)| shrink(*v, p, -1)).collect();
+            Some((mode.evaluation.log, back, mode.evaluations))
+        })
+        .collect();
+    if (options.cancelled)() {
+        return Err(FitError::Cancelled);
+    }
+    let mut evaluations: usize = rough_modes.iter().map(|(_, _, count)| count).sum();
+    rough_modes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut distinct: Vec<Vec<f64>> = Vec::new();
+    for (_, values, _) in rough_modes {
+        let q = posterior.coordinates.of(&values);
+        let same = |other: &Vec<f64>| {
+            let other = posterior.coordinates.of(other);
+            q.iter().zip(&other).all(|(a, b)| (a - b).abs() < 0.05 * (1.0 + a.abs()))
+        };
+        if !distinct.iter().any(same) {
+            distinct.push(values);
+        }
+        if distinct.len() == MODES {
+            break;
+        }
+    }
+    let mut found: Vec<Mode> = distinct
+        .par_iter()
+        .filter_map(|values| {
+            let mut q = posterior.coordinates.of(values);
+            if posterior.noise.unknown.is_some() {
+                q.push(0.0);
+            }
+            if (options.cancelled)() { None } else { climb(posterior, &q, 60) }
+        })
+        .collect();
+    evaluations += found.iter().map(|mode| mode.evaluations).sum::<usize>();
+    if (options.cancelled)() {
+        return Err(FitError::Cancelled);
+    }
+    found.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+    let mut kept: Vec<Mode> = Vec::new();
+    for mode in found {
+        let same = |other: &Mode| other.standard(&mode.place).norm() < 1.5;
+        let top = kept.first().map_or(mode.evaluation.log, |best| best.evaluation.log);
+        if mode.evaluation.log > top - FORGOTTEN && !kept.iter().any(same) {
+            kept.push(mode);
+        }
+    }
+    if kept.is_empty() { Err(FitError::NoStart) } else { Ok((kept, evaluations)) }
+}
+
+/// The same parameters free, anywhere within their bounds.
+fn loosened(freedoms: &[Freedom], parameters: &[Parameter]) -> Vec<Freedom> {
+    let loose = |(freedom, parameter): (&Freedom, &Parameter)| match (freedom, parameter.usual) {
+        (Freedom::Free(_), usual @ Freedom::Free(_)) if parameter.pixels != 0 => usual,
+        _ => *freedom,
+    };
+    freedoms.iter().zip(parameters).map(loose).collect()
+}
+
+/// Numbers, names and units of what is looked for.
+fn names(
+    model: &Observed<Box<dyn Source>>,
+    coordinates: &Coordinates,
+    noise: bool,
+) -> Vec<(usize, (String, String))> {
+    let parameters = model.parameters();
+    let mut names: Vec<(usize, (String, String))> = coordinates
+        .free()
+        .into_iter()
+        .map(|k| (k, (parameters[k].name.to_owned(), parameters[k].unit.to_owned())))
+        .collect();
+    if noise {
+        names.push((parameters.len(), ("noise".to_owned(), String::new())));
+    }
+    names
+}
+
+fn summarise(
+    model: &Observed<Box<dyn Source>>,
+    posterior: &Posterior<'_, Box<dyn Source>>,
+    best: &Mode,
+    draws: &[Draws],
+    pixel: Option<f64>,
+) -> Vec<Estimate> {
+    let values: Vec<Vec<Vec<f64>>> =
+        draws.iter().map(|chain| chain.places.iter().map(|q| posterior.values(q)).collect()).collect();
+    let column = |f: &dyn Fn(&Vec<f64>) -> f64| -> Vec<Vec<f64>> {
+        values.iter().map(|chain| chain.iter().map(f).collect()).collect()
+    };
+    let free = posterior.coordinates.free();
+    let mode = &best.evaluation.values;
+    let mut estimates: Vec<Estimate> = Vec::new();
+    for (k, parameter) in model.parameters().iter().enumerate() {
+        estimates.push(if free.contains(&k) {
+            let turn = (parameter.name == "position_angle").then_some(360.0);
+            Estimate::of(parameter.name, parameter.unit, mode[k], &column(&|v| v[k]), turn)
+        } else {
+            Estimate::fixed(parameter.name, parameter.unit, mode[k])
+        });
+    }
+    if posterior.noise.unknown.is_some() {
+        let k = model.parameters().len();
+        estimates.push(Estimate::of("noise", "", mode[k], &column(&|v| v[k]), None));
+    }
+    if let Some(pixel) = pixel {
+        let mut more = Vec::new();
+        for (k, parameter) in model.parameters().iter().enumerate().filter(|(k, _)| free.contains(k)) {
+            // A length on the sky, of what is one in pixels or M.
+            let (name, angle): (String, Box<dyn Fn(f64) -> f64>) = match parameter.name {
+                "scale" => ("theta_g_uas".to_owned(), Box::new(move |scale| pixel / scale)),
+                "diameter" | "width" | "blur" => {
+                    (format!("{}_uas", parameter.name), Box::new(move |length| length * pixel))
+                }
+                _ => continue,
+            };
+            more.push(Estimate::of(&name, "uas", angle(mode[k]), &column(&|v| angle(v[k])), None));
+        }
+        estimates.extend(more);
+    }
+    estimates
+}
+
+/// The posterior of parameters given, for tests and benchmarks: its evaluation with a gradient.
+pub fn gradient(
+    image: &Image,
+    models: &dyn Models,
+    options: &Options<'_>,
+    values: &[f64],
+) -> Option<Vec<f64>> {
+    let assumed = noise::assume(&image.values, image.size, options.noise);
+    let model = Observed::new(models.source(2), image.size);
+    let sizes = vec![noise::peak(&image.values); model.parameters().len()];
+    let coordinates = Coordinates::new(model.parameters(), &options.freedoms, &sizes);
+    let posterior =
+        Posterior { model: &model, data: &image.values, noise: &assumed, coordinates: &coordinates };
+    let mut q = coordinates.of(values);
+    if assumed.unknown.is_some() {
+        q.push(0.0);
+    }
+    posterior.at(&q, Ask::Gradient).map(|found| found.gradient)
+}

@@ -1,0 +1,123 @@
+//! The most probable parameters near a start: damped Gauss–Newton steps (Levenberg 1944, Marquardt 1963) up the posterior.
+//!
+//! The steps are our own because what is climbed is a posterior with priors and an unknown noise, of which libraries for least squares
+//! know nothing; coordinates without bounds make the bounded problem a free one.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use crate::likelihood::{Ask, Evaluation, Posterior};
+use crate::model::Source;
+
+/// A maximum of the posterior, and its surroundings as a Gaussian.
+#[derive(Clone, Debug)]
+pub struct Mode {
+    /// Coordinates.
+    pub place: Vec<f64>,
+    /// The posterior there.
+    pub evaluation: Evaluation,
+    /// L of LLᵀ = minus the second derivatives, nearly.
+    pub factor: Cholesky<f64, Dyn>,
+    /// Whether steps had become small.
+    pub converged: bool,
+    /// How often the model was evaluated.
+    pub evaluations: usize,
+}
+
+impl Mode {
+    /// The logarithm of the evidence if the posterior were the Gaussian around it, but for a constant: ln p + ½ ln det(2π H⁻¹).
+    pub fn evidence(&self) -> f64 {
+        let n = self.place.len() as f64;
+        let half: f64 = self.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
+        self.evaluation.log + 0.5 * n * std::f64::consts::TAU.ln() - half
+    }
+
+    /// Coordinates of a place given in standard deviations of that Gaussian: q + L⁻ᵀ z.
+    pub fn at(&self, z: &[f64]) -> Vec<f64> {
+        let mut step = DVector::from_column_slice(z);
+        self.factor.l_dirty().tr_solve_lower_triangular_mut(&mut step);
+        self.place.iter().zip(step.iter()).map(|(q, s)| q + s).collect()
+    }
+
+    /// The place in standard deviations: Lᵀ (q − q₀).
+    pub fn standard(&self, q: &[f64]) -> DVector<f64> {
+        let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.place).map(|(a, b)| a - b));
+        let lower = self.factor.l_dirty().lower_triangle();
+        lower.tr_mul(&offset)
+    }
+
+    /// From a gradient in the coordinates to one in standard deviations: L⁻¹ g.
+    pub fn turn(&self, gradient: &[f64]) -> Vec<f64> {
+        let mut turned = DVector::from_column_slice(gradient);
+        self.factor.l_dirty().solve_lower_triangular_mut(&mut turned);
+        turned.iter().copied().collect()
+    }
+}
+
+/// The factor of a matrix that is made positive where it is not.
+pub fn factor(mut matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
+    let n = matrix.nrows();
+    let trace: f64 = (0..n).map(|k| matrix[(k, k)].abs()).sum::<f64>().max(1e-300);
+    let mut extra = 0.0;
+    loop {
+        if let Some(factor) = Cholesky::new(matrix.clone()) {
+            return factor;
+        }
+        // Rounding: what was added grows until it is enough, at the latest when it is all there is.
+        let next = if extra == 0.0 { 1e-14 * trace } else { 10.0 * extra };
+        for k in 0..n {
+            if !matrix[(k, k)].is_finite() {
+                matrix = DMatrix::identity(n, n);
+                break;
+            }
+            matrix[(k, k)] += next;
+        }
+        extra = next;
+    }
+}
+
+/// Climbs from a start; none if the model has no picture there. `most` bounds the evaluations.
+pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize) -> Option<Mode> {
+    let mut place = start.to_vec();
+    let mut here = posterior.at(&place, Ask::Curvature)?;
+    let mut evaluations = 1;
+    let (mut damping, mut converged) = (1e-3, false);
+    while evaluations < most {
+        let mut matrix = here.curvature.clone();
+        for k in 0..matrix.nrows() {
+            matrix[(k, k)] *= 1.0 + damping;
+        }
+        let step = factor(matrix).solve(&DVector::from_column_slice(&here.gradient));
+        // What the step should gain.
+        let promise = step.dot(&DVector::from_column_slice(&here.gradient));
+        if promise < 1e-5 {
+            converged = true;
+            break;
+        }
+        // A coordinate of a bounded parameter does not leap over all of its range.
+        let largest = step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
+        let shrink = (3.0 / largest).min(1.0);
+        let next: Vec<f64> = place.iter().zip(step.iter()).map(|(q, s)| q + shrink * s).collect();
+        evaluations += 1;
+        match posterior.at(&next, Ask::Curvature) {
+            Some(there) if there.log > here.log => {
+                damping = (damping * 0.2).max(1e-9);
+                let gain = there.log - here.log;
+                (place, here) = (next, there);
+                if gain < 1e-5 && damping < 1e-2 {
+                    converged = true;
+                    break;
+                }
+            }
+            _ => {
+                damping *= 8.0;
+                if damping > 1e8 {
+                    // No step leads upwards: the top, within what the model's own rounding allows.
+                    converged = true;
+                    break;
+                }
+            }
+        }
+    }
+    let factor = factor(here.curvature.clone());
+    Some(Mode { place, evaluation: here, factor, converged, evaluations })
+}

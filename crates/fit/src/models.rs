@@ -1,0 +1,66 @@
+//! The models that a picture can be compared with, by their names.
+
+use crate::fit::Models;
+use crate::model::Source;
+use crate::ring::Ring;
+use crate::traced::{Disk, Fineness, Kind, Projection};
+
+/// A model by its name.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Name {
+    /// A thin disk with the flux of Page & Thorne, opaque.
+    #[default]
+    PageThorne,
+    /// A thin disk whose flux is a power of the radius, opaque.
+    PowerLaw,
+    /// The same, holding nothing back: all image orders are seen.
+    ThinPowerLaw,
+    /// A ring on the sky, brighter on one side, blurred.
+    Ring,
+}
+
+impl Name {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::PageThorne, Self::PowerLaw, Self::ThinPowerLaw, Self::Ring];
+
+    /// As it is written.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::PageThorne => "page-thorne",
+            Self::PowerLaw => "power-law",
+            Self::ThinPowerLaw => "thin-power-law",
+            Self::Ring => "ring",
+        }
+    }
+
+    /// The model of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|model| model.name() == name)
+    }
+}
+
+/// A model, and how its picture is projected.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Choice {
+    /// Which one.
+    pub name: Name,
+    /// How directions become places.
+    pub projection: Projection,
+}
+
+impl Models for Choice {
+    fn source(&self, fineness: usize) -> Box<dyn Source> {
+        let fineness = match fineness {
+            0 => Fineness::SKETCH,
+            1 => Fineness::MEDIUM,
+            _ => Fineness::default(),
+        };
+        let disk = |kind, opaque| Box::new(Disk::new(kind, opaque, self.projection, fineness));
+        match self.name {
+            Name::PageThorne => disk(Kind::PageThorne, true),
+            Name::PowerLaw => disk(Kind::PowerLaw, true),
+            Name::ThinPowerLaw => disk(Kind::PowerLaw, false),
+            Name::Ring => Box::new(Ring),
+        }
+    }
+}

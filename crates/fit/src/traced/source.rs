@@ -1,0 +1,186 @@
+//! A disk around a Kerr hole as the light of a picture.
+
+use super::canvas::CHANNELS;
+use super::matter::Profile;
+use super::picture::{Fineness, Painter, Setting};
+use super::screen::{Frame, Projection};
+use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
+use crate::prior::Prior;
+
+/// What a disk's parameters are called.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Kind {
+    /// Page & Thorne's flux.
+    PageThorne,
+    /// r^−q.
+    PowerLaw,
+}
+
+/// A thin disk on circular geodesics, in the light of all frequencies, I = g⁴F/π.
+#[derive(Debug)]
+pub struct Disk {
+    kind: Kind,
+    painter: Painter,
+}
+
+/// The closest that a hole's spin comes to 1.
+const MOST_SPIN: f64 = 0.998;
+
+impl Disk {
+    /// An opaque disk, or one that holds nothing back.
+    pub fn new(kind: Kind, opaque: bool, projection: Projection, fineness: Fineness) -> Self {
+        Self { kind, painter: Painter::new(projection, opaque, fineness) }
+    }
+
+    /// The channel of each parameter, and the factor of its derivative.
+    fn channels(&self, values: &[f64]) -> Vec<(usize, f64)> {
+        let degree = 1f64.to_radians();
+        let mut channels = vec![
+            (1, 1.0),
+            (2, degree),
+            (10, degree),
+            (7, 1.0),
+            (8, 1.0),
+            (9, 1.0),
+            (3, -values[6].powi(-2)),
+            (4, 1.0),
+            (5, 1.0),
+        ];
+        if self.kind == Kind::PowerLaw {
+            channels.push((6, 1.0));
+        }
+        channels
+    }
+}
+
+impl Source for Disk {
+    fn parameters(&self) -> Vec<Parameter> {
+        let free = Freedom::Free;
+        let parameter = |name, unit: &'static str, meaning, bounds, usual| {
+            let pixels = match unit {
+                "px" => 1,
+                "M/px" => -1,
+                _ => 0,
+            };
+            Parameter { name, unit, meaning, bounds, pixels, usual }
+        };
+        let mut parameters = vec![
+            parameter(
+                "spin",
+                "",
+                "a, the disk turning about +z: below 0 it goes against the hole",
+                [-MOST_SPIN, MOST_SPIN],
+                free(Prior::Uniform(-MOST_SPIN, MOST_SPIN)),
+            ),
+            parameter(
+                "inclination",
+                "deg",
+                "from the axis that the disk turns about to the observer: beyond 90 it turns clockwise",
+                [0.0, 180.0],
+                free(Prior::Isotropic(0.0, 180.0)),
+            ),
+            parameter(
+                "position_angle",
+                "deg",
+                "of the projected axis, East of North: anticlockwise from up",
+                [0.0, 360.0],
+                free(Prior::Uniform(0.0, 360.0)),
+            ),
+            parameter(
+                "scale",
+                "M/px",
+                "M in a pixel, at the hole's distance",
+                [1e-4, 1e3],
+                free(Prior::LogUniform(1e-4, 1e3)),
+            ),
+            parameter(
+                "center_x",
+                "px",
+                "the direction of the hole, to the right of the picture's middle",
+                [-1e4, 1e4],
+                free(Prior::Uniform(-1e4, 1e4)),
+            ),
+            parameter("center_y", "px", "the same, up", [-1e4, 1e4], free(Prior::Uniform(-1e4, 1e4))),
+            parameter("distance", "M", "r of the observer", [20.0, f64::INFINITY], Freedom::Fixed(1000.0)),
+            parameter(
+                "inner",
+                "r_ISCO",
+                "inner radius, in that of the last stable orbit",
+                [1.0, 50.0],
+                Freedom::Fixed(1.0),
+            ),
+            parameter("outer", "M", "outer radius", [1.0, f64::INFINITY], Freedom::Fixed(f64::INFINITY)),
+        ];
+        if self.kind == Kind::PowerLaw {
+            parameters.push(parameter(
+                "index",
+                "",
+                "q of the flux r^−q",
+                [-2.0, 10.0],
+                free(Prior::Uniform(0.0, 6.0)),
+            ));
+        }
+        parameters
+    }
+
+    fn draw(&self, values: &[f64], size: [usize; 2], derivatives: bool) -> Result<Prediction, Unpredictable> {
+        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer] = values[..9] else {
+            return Err(Unpredictable("too few parameters".to_owned()));
+        };
+        let setting = Setting {
+            spin,
+            inclination: inclination.to_radians(),
+            u: distance.recip(),
+            inner,
+            outer,
+            profile: match self.kind {
+                Kind::PageThorne => Profile::PageThorne,
+                Kind::PowerLaw => Profile::PowerLaw { index: values[9] },
+            },
+            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
+        };
+        let unseen = |_| {
+            Unpredictable(format!(
+                "a disk of spin {spin:.4}, seen from {inclination:.3}°, {distance} M away, {scale:.4} M a pixel"
+            ))
+        };
+        let canvas = self.painter.draw(&setting, derivatives).map_err(unseen)?;
+        let channel = |channel: usize, factor: f64| -> Vec<f64> {
+            debug_assert!(channel < CHANNELS);
+            canvas.pixels().iter().map(|pixel| factor * pixel[channel]).collect()
+        };
+        let mut prediction = Prediction { values: channel(0, 1.0), derivatives: Vec::new() };
+        if derivatives {
+            prediction.derivatives =
+                self.channels(values).into_iter().map(|(at, factor)| channel(at, factor)).collect();
+        }
+        if prediction.values.iter().all(|value| value.is_finite()) {
+            Ok(prediction)
+        } else {
+            Err(unseen(super::Unseen))
+        }
+    }
+
+    fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>> {
+        super::start::find(values, size)
+            .into_iter()
+            .map(|found| {
+                let mut start = vec![
+                    found.spin,
+                    found.inclination,
+                    found.position_angle,
+                    found.scale,
+                    found.center[0],
+                    found.center[1],
+                    1000.0,
+                    1.0,
+                    f64::INFINITY,
+                ];
+                if self.kind == Kind::PowerLaw {
+                    start.push(3.0);
+                }
+                start
+            })
+            .collect()
+    }
+}

@@ -1,0 +1,151 @@
+//! What is to be minded of a fit, in plain words.
+
+use crate::fit::{AIM, Fit, Image};
+use crate::model::{Freedom, Parameter};
+use crate::noise::peak;
+
+/// A model that leaves more of a picture's variance than this, beyond its noise, does not describe it.
+const UNEXPLAINED: f64 = 0.05;
+
+/// Residuals this many times the pixels' own noise, and this large a share of the brightest, are the model's fault.
+const LARGE: (f64, f64) = (1.5, 0.02);
+
+/// A posterior nearly as wide as its prior says nothing.
+const WIDE: f64 = 0.8;
+
+/// Adds warnings, and judges whether the model describes the picture.
+pub fn judge(
+    fit: &mut Fit,
+    image: &Image,
+    (parameters, freedoms): (&[Parameter], &[Freedom]),
+    modes: usize,
+    pixel_noise: f64,
+) {
+    let mut warnings = Vec::new();
+    let residuals: Vec<f64> = image.values.iter().zip(&fit.best.values).map(|(d, m)| d - m).collect();
+    let n = residuals.len() as f64;
+    let mean = image.values.iter().sum::<f64>() / n;
+    let variance = image.values.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n;
+    let left = residuals.iter().map(|r| r * r).sum::<f64>() / n;
+    fit.explained = 1.0 - left / variance;
+    let beyond = (left - pixel_noise * pixel_noise).max(0.0);
+    let alike = neighbours(&residuals, image.size);
+    let excess =
+        left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
+    let known = freedoms.len() > 0 && fit.estimates.iter().all(|e| e.name != "noise");
+    let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
+    if beyond > UNEXPLAINED * variance || excess || heavy {
+        fit.good = false;
+        warnings.push(format!(
+            "poor fit: the model leaves {:.1} % of the picture's variance, {:.1} % of it beyond the noise, and residuals of neighbouring \
+             pixels go together (correlation {alike:.2}); χ² is {:.0} for {} degrees of freedom. Its numbers describe no such \
+             picture: do not use them",
+            100.0 * left / variance,
+            100.0 * beyond / variance,
+            fit.chi2,
+            fit.degrees,
+        ));
+    }
+    if !fit.converged {
+        let worst = fit
+            .estimates
+            .iter()
+            .filter(|e| !e.converged(AIM.0, AIM.1))
+            .map(|e| {
+                let (r, n) = (e.r_hat.unwrap_or(f64::NAN), e.effective.unwrap_or(f64::NAN));
+                format!("{} (R̂ {r:.3}, {n:.0} effective draws)", e.name)
+            })
+            .collect::<Vec<_>>()
+            .join(", ");
+        warnings.push(format!(
+            "chains have not converged to R̂ < {} and {} effective draws for {worst}: give more with --rounds, or fix or bound what \
+             cannot be told",
+            AIM.0, AIM.1
+        ));
+    }
+    if modes > 1 {
+        warnings.push(format!("{modes} modes compete: look at the chains, not at means alone"));
+    }
+    for (parameter, freedom) in parameters.iter().zip(freedoms) {
+        let Freedom::Free(prior) = freedom else { continue };
+        let Some(estimate) = fit.estimates.iter().find(|e| e.name == parameter.name) else { continue };
+        let [low, high] = prior.range(parameter.bounds);
+        let wide = prior.deviation(parameter.bounds);
+        match parameter.name {
+            "position_angle" if estimate.sd > 60.0 => warnings.push(
+                "the position angle cannot be told: the picture is as good as the same all around, as of a disk seen face-on".to_owned(),
+            ),
+            "spin" if estimate.q025 < 0.0 && estimate.q975 > 0.0 => warnings.push(format!(
+                "the sign of the spin cannot be told: 95 % of the posterior lie between {:.3} and {:.3}",
+                estimate.q025, estimate.q975
+            )),
+            _ => {}
+        }
+        if parameter.name != "position_angle" && estimate.sd > WIDE * wide {
+            warnings.push(format!(
+                "{} is hardly told by the picture: its posterior is as wide as its prior {prior}",
+                parameter.name
+            ));
+        } else if parameter.name != "position_angle" && parameter.name != "inclination" {
+            let near = |bound: f64, value: f64| (bound - value).abs() < 0.25 * estimate.sd;
+            if near(low, estimate.q025) || near(high, estimate.q975) {
+                warnings.push(format!(
+                    "{} lies at the end of its range, {low} to {high}: its interval is cut off there",
+                    parameter.name
+                ));
+            }
+        }
+    }
+    for (a, b, correlation) in correlations(fit) {
+        warnings.push(format!(
+            "{a} and {b} go together (correlation {correlation:.3}): only a combination of both is told"
+        ));
+    }
+    if fit.diverged > 0 {
+        warnings.push(format!(
+            "{} trajectories went astray: the posterior has corners that draws may miss",
+            fit.diverged
+        ));
+    }
+    fit.warnings = warnings;
+}
+
+/// Correlation of residuals with those to the right and below.
+fn neighbours(residuals: &[f64], [width, height]: [usize; 2]) -> f64 {
+    let (mut product, mut square) = (0.0, 0.0);
+    for row in 0..height - 1 {
+        for column in 0..width - 1 {
+            let here = residuals[row * width + column];
+            product +=
+                0.5 * here * (residuals[row * width + column + 1] + residuals[(row + 1) * width + column]);
+            square += here * here;
+        }
+    }
+    if square > 0.0 { product / square } else { 0.0 }
+}
+
+/// Pairs of parameters that determine each other.
+fn correlations(fit: &Fit) -> Vec<(String, String, f64)> {
+    let columns: Vec<Vec<f64>> =
+        (0..fit.free.len()).map(|k| fit.draws.iter().flatten().map(|draw| draw[k]).collect()).collect();
+    let standard: Vec<Vec<f64>> = columns
+        .iter()
+        .map(|column| {
+            let mean = column.iter().sum::<f64>() / column.len() as f64;
+            let sd = (column.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / column.len() as f64).sqrt();
+            column.iter().map(|x| (x - mean) / sd).collect()
+        })
+        .collect();
+    let mut pairs = Vec::new();
+    for a in 0..standard.len() {
+        for b in 0..a {
+            let count = standard[a].len() as f64;
+            let correlation: f64 =
+                standard[a].iter().zip(&standard[b]).map(|(x, y)| x * y).sum::<f64>() / count;
+            if correlation.abs() > 0.98 {
+                pairs.push((fit.free[b].0.clone(), fit.free[a].0.clone(), correlation));
+            }
+        }
+    }
+    pairs
+}
