@@ -1,9 +1,10 @@
 //! Chains of draws from a posterior.
 //!
-//! Chains begin around the modes, drawn with a wider spread, and go on by the No-U-Turn Sampler in coordinates in which the posterior is
-//! nearly a standard Gaussian: at first those of the best mode, then those of the draws themselves. Where there are several modes each
-//! draw is followed by a proposal from the mixture of Student's distributions around them (four degrees of freedom), accepted by
-//! Metropolis & Hastings, so that chains change between modes as often as their weights ask for.
+//! Chains begin around the modes, drawn with a wider spread. In posteriors of clear pictures, which are nearly Gaussians, they leap: to
+//! places drawn from Student's distributions around all modes (of eight degrees of freedom), accepted by Metropolis & Hastings, and by
+//! short random walks between; leaps change between modes as often as their weights ask for. Where too few leaps succeed, chains move
+//! by the No-U-Turn Sampler, with a leap after each trajectory. A leap costs one evaluation of the model, a trajectory some seven with
+//! gradients.
 //!
 //! A round of draws is a function of the round before and of the seed, whatever the number of threads.
 
@@ -23,10 +24,18 @@ use crate::nuts::{Pace, State, step};
 pub const CHAINS: usize = 4;
 
 /// Degrees of freedom of proposals between modes.
-const FREEDOM: f64 = 4.0;
+const FREEDOM: f64 = 8.0;
 
-/// Draws of the first rounds, which are not kept: with the coordinates of the mode, and with those of the draws.
-const WARM: [usize; 3] = [25, 35, 25];
+/// Draws of the first rounds, which are not kept: two of leaps, after the first of which the draws' own covariance shapes them; and
+/// where these fail, three of trajectories.
+const TRIED: [usize; 2] = [40, 30];
+const WARM: [usize; 3] = [20, 30, 20];
+
+/// The share of leaps of the second round that have to succeed.
+const LEAPING: f64 = 0.2;
+
+/// Leaps for a draw.
+const LEAPS: usize = 2;
 
 /// Draws of a round of each chain.
 pub const ROUND: usize = 50;
@@ -36,7 +45,6 @@ pub const ROUND: usize = 50;
 pub struct Chain {
     state: State,
     pace: Pace,
-    round: u64,
 }
 
 /// What a round of a chain gave.
@@ -46,14 +54,12 @@ pub struct Draws {
     pub places: Vec<Vec<f64>>,
     /// Logarithm of the posterior's density.
     pub logs: Vec<f64>,
-    /// Logarithm of the likelihood.
-    pub accepted: f64,
     /// Trajectories that went astray.
     pub diverged: usize,
     /// Evaluations of the model.
     pub evaluations: usize,
-    /// Changes between modes that were accepted.
-    pub jumps: usize,
+    /// Leaps that were tried, and that were accepted.
+    pub leaps: [usize; 2],
 }
 
 /// Coordinates in which chains are run: q = origin + matrix · y.
@@ -118,6 +124,8 @@ impl Metric {
 pub struct Chains {
     metric: Metric,
     chains: Vec<Chain>,
+    /// Whether chains move along trajectories, because leaps fail.
+    trajectories: bool,
     /// Rounds done, those that are not kept among them.
     pub rounds: u64,
 }
@@ -155,13 +163,13 @@ impl<S: Source> Field<'_, S> {
                         .map(|_| wide * Distribution::<f64>::sample(&StandardNormal, &mut rng))
                         .collect();
                     if let Some(state) = self.state(&metric, &mode.at(&z)) {
-                        return Some(Chain { state, pace: Pace::new(0.6), round: 0 });
+                        return Some(Chain { state, pace: Pace::new(0.6) });
                     }
                 }
                 None
             })
             .collect();
-        Some(Chains { metric, chains: chains?, rounds: 0 })
+        Some(Chains { metric, chains: chains?, trajectories: false, rounds: 0 })
     }
 
     /// A mode, by its weight.
@@ -198,27 +206,40 @@ impl<S: Source> Field<'_, S> {
 
     /// The next round of all chains, and its draws; those of warming up, which do not count, are empty.
     pub fn go_on(&self, mut chains: Chains, cancelled: &(dyn Fn() -> bool + Sync)) -> (Chains, Vec<Draws>) {
-        let round = chains.rounds;
-        let warm = WARM.get(round as usize).copied();
-        let metric = chains.metric.clone();
+        let round = chains.rounds as usize;
+        let warm = if round < TRIED.len() {
+            Some(TRIED[round])
+        } else if chains.trajectories {
+            WARM.get(round - TRIED.len()).copied()
+        } else {
+            None
+        };
+        let (metric, trajectories) = (chains.metric.clone(), chains.trajectories);
         let mut draws: Vec<Draws> = chains
             .chains
             .par_iter_mut()
             .enumerate()
-            .map(|(number, chain)| self.run(&metric, chain, number, round + 1, warm, cancelled))
-            .collect();
-        if round == 1 {
-            // The coordinates of the draws, and everything anew in these.
-            let places: Vec<Vec<f64>> = draws.iter().flat_map(|d| d.places.iter().cloned()).collect();
-            let next = metric.from_draws(&places);
-            for chain in &mut chains.chains {
-                let q = metric.outside(&chain.state.z);
-                if let Some(state) = self.state(&next, &q) {
-                    chain.state = state;
+            .map(|(number, chain)| {
+                let mut rng = self.rng(round as u64 + 1, number);
+                if trajectories {
+                    self.trajectories(&metric, chain, warm, &mut rng, cancelled)
+                } else {
+                    self.leaps(&metric, chain, warm.unwrap_or(ROUND), &mut rng, cancelled)
                 }
-                chain.pace = Pace::new(0.7);
+            })
+            .collect();
+        let places = || draws.iter().flat_map(|d| d.places.iter().cloned()).collect::<Vec<Vec<f64>>>();
+        if round + 1 == TRIED.len() {
+            let [tried, accepted] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
+            chains.trajectories = (accepted as f64) < LEAPING * tried as f64;
+            if chains.trajectories
+                && let Some(mode) = self.modes.first()
+            {
+                self.change(&mut chains, Metric::around(mode));
             }
-            chains.metric = next;
+        } else if round == 0 || (trajectories && round == TRIED.len() + 1) {
+            let next = metric.from_draws(&places());
+            self.change(&mut chains, next);
         }
         if warm.is_some() {
             for d in &mut draws {
@@ -229,16 +250,52 @@ impl<S: Source> Field<'_, S> {
         (chains, draws)
     }
 
-    fn run(
+    /// Goes over to other coordinates.
+    fn change(&self, chains: &mut Chains, next: Metric) {
+        for chain in &mut chains.chains {
+            let q = chains.metric.outside(&chain.state.z);
+            chain.state =
+                State { z: next.inside(&q).as_slice().to_vec(), log: chain.state.log, gradient: Vec::new() };
+            chain.pace = Pace::new(0.7);
+        }
+        chains.metric = next;
+    }
+
+    /// Draws by leaps and random walks.
+    fn leaps(
         &self,
         metric: &Metric,
         chain: &mut Chain,
-        number: usize,
-        round: u64,
-        warm: Option<usize>,
+        count: usize,
+        rng: &mut Pcg64Mcg,
         cancelled: &(dyn Fn() -> bool + Sync),
     ) -> Draws {
-        let mut rng = self.rng(round, number);
+        let mut draws = Draws::default();
+        for _ in 0..count {
+            if cancelled() {
+                break;
+            }
+            for _ in 0..LEAPS {
+                draws.leaps[0] += 1;
+                draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
+            }
+            self.wander(metric, chain, rng);
+            draws.evaluations += LEAPS + 1;
+            draws.places.push(metric.outside(&chain.state.z));
+            draws.logs.push(chain.state.log);
+        }
+        draws
+    }
+
+    /// Draws by trajectories, a leap after each.
+    fn trajectories(
+        &self,
+        metric: &Metric,
+        chain: &mut Chain,
+        warm: Option<usize>,
+        rng: &mut Pcg64Mcg,
+        cancelled: &(dyn Fn() -> bool + Sync),
+    ) -> Draws {
         let mut draws = Draws::default();
         let mut target = |y: &[f64]| {
             let found = self.posterior.at(&metric.outside(y), Ask::Gradient)?;
@@ -249,56 +306,82 @@ impl<S: Source> Field<'_, S> {
             if cancelled() {
                 break;
             }
+            if chain.state.gradient.is_empty()
+                && let Some(state) = self.state(metric, &metric.outside(&chain.state.z))
+            {
+                chain.state = state;
+                draws.evaluations += 1;
+            }
             let size = if warm.is_some() { chain.pace.size() } else { chain.pace.settled() };
             // Steps of many sizes: trajectories of one length may be periodic.
             let size = size * (0.9 + 0.2 * rng.random::<f64>());
-            let (state, step) = step(&mut target, &chain.state, size, &mut rng);
+            let (state, step) = step(&mut target, &chain.state, size, rng);
             chain.state = state;
             if warm.is_some() {
                 chain.pace.learn(step.acceptance);
             }
-            draws.evaluations += step.evaluations;
-            draws.diverged += usize::from(step.diverged);
-            draws.accepted += step.acceptance;
-            if self.modes.len() > 1 {
-                draws.evaluations += 1;
-                draws.jumps += usize::from(self.jump(metric, chain, &mut rng));
-            }
+            draws.evaluations += step.evaluations + 1;
+            draws.diverged += usize::from(step.diverged && warm.is_none());
+            draws.leaps[0] += 1;
+            draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
             draws.places.push(metric.outside(&chain.state.z));
             draws.logs.push(chain.state.log);
         }
         draws
     }
 
-    /// Tries to change to a place that is drawn from around all modes.
-    fn jump(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) -> bool {
+    /// A step of a random walk, of the size that suits a Gaussian (Roberts, Gelman & Gilks 1997), or a fifth of it.
+    fn wander(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) {
+        let n = chain.state.z.len() as f64;
+        let size = 2.38 / n.sqrt() * if rng.random::<bool>() { 1.0 } else { 0.2 };
+        let z: Vec<f64> = chain
+            .state
+            .z
+            .iter()
+            .map(|z| z + size * Distribution::<f64>::sample(&StandardNormal, rng))
+            .collect();
+        let chance: f64 = rng.random();
+        if let Some(found) = self.posterior.at(&metric.outside(&z), Ask::Value)
+            && chance.ln() < found.log - chain.state.log
+        {
+            chain.state = State { z, log: found.log, gradient: Vec::new() };
+        }
+    }
+
+    /// Tries to change to a place that is drawn from around all modes. A new place has no gradient yet.
+    fn leap(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) -> bool {
         let mode = self.chosen(rng);
         let stretch = ChiSquared::new(FREEDOM)
             .map_or(1.0, |chi| (FREEDOM / Distribution::<f64>::sample(&chi, rng).max(1e-3)).sqrt());
         let z: Vec<f64> =
             mode.place.iter().map(|_| stretch * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
-        let (from, to) = (metric.outside(&chain.state.z), mode.at(&z));
+        let from = metric.outside(&chain.state.z);
+        // The only mode has the shape that draws have shown.
+        let to = if self.modes.len() == 1 { metric.outside(&z) } else { mode.at(&z) };
         let chance: f64 = rng.random();
-        let Some(state) = self.state(metric, &to) else { return false };
-        let gain = state.log - chain.state.log + self.density(&from) - self.density(&to);
+        let Some(found) = self.posterior.at(&to, Ask::Value) else { return false };
+        let gain = found.log - chain.state.log + self.density(metric, &from) - self.density(metric, &to);
         let accepted = chance.ln() < gain;
         if accepted {
-            chain.state = state;
+            let z = metric.inside(&to).as_slice().to_vec();
+            chain.state = State { z, log: found.log, gradient: Vec::new() };
         }
         accepted
     }
 
-    /// The logarithm of the density of proposals: Σ w_k t(Lᵀ(q − q_k)) det L.
-    fn density(&self, q: &[f64]) -> f64 {
-        let n = q.len() as f64;
+    /// The logarithm of the density of proposals, but for a constant: Σ w_k t(Lᵀ(q − q_k)) det L.
+    fn density(&self, metric: &Metric, q: &[f64]) -> f64 {
+        let student = |square: f64| -0.5 * (FREEDOM + q.len() as f64) * (1.0 + square / FREEDOM).ln();
+        if self.modes.len() == 1 {
+            return student(metric.inside(q).norm_squared());
+        }
         let logs: Vec<f64> = self
             .modes
             .iter()
             .zip(self.weights())
             .map(|(mode, weight)| {
-                let square = mode.standard(q).norm_squared();
                 let half: f64 = mode.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-                weight.ln() + half - 0.5 * (FREEDOM + n) * (1.0 + square / FREEDOM).ln()
+                weight.ln() + half + student(mode.standard(q).norm_squared())
             })
             .collect();
         let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);

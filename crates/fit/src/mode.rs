@@ -75,6 +75,9 @@ pub fn factor(mut matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
     }
 }
 
+/// What a step has to promise in ln p to be taken: a tenth of a standard deviation.
+const ENOUGH: f64 = 5e-3;
+
 /// Climbs from a start; none if the model has no picture there. `most` bounds the evaluations.
 pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize) -> Option<Mode> {
     let mut place = start.to_vec();
@@ -89,7 +92,7 @@ pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize
         let step = factor(matrix).solve(&DVector::from_column_slice(&here.gradient));
         // What the step should gain.
         let promise = step.dot(&DVector::from_column_slice(&here.gradient));
-        if promise < 1e-5 {
+        if promise < ENOUGH {
             converged = true;
             break;
         }
@@ -100,17 +103,17 @@ pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize
         evaluations += 1;
         match posterior.at(&next, Ask::Curvature) {
             Some(there) if there.log > here.log => {
-                damping = (damping * 0.2).max(1e-9);
+                damping = (damping * 0.2).max(1e-6);
                 let gain = there.log - here.log;
                 (place, here) = (next, there);
-                if gain < 1e-5 && damping < 1e-2 {
+                if gain < 0.1 * ENOUGH && damping < 1e-2 {
                     converged = true;
                     break;
                 }
             }
             _ => {
                 damping *= 8.0;
-                if damping > 1e8 {
+                if damping > 1e3 {
                     // No step leads upwards: the top, within what the model's own rounding allows.
                     converged = true;
                     break;

@@ -3,7 +3,7 @@
 use crate::likelihood::{Noise, Unknown};
 
 /// A model's pixels may be off by this share of the brightest: see [`Fineness`](crate::traced::Fineness).
-const MODEL: f64 = 5e-4;
+const MODEL: f64 = 1e-3;
 
 /// Noise below this share of the brightest is no noise, but what the picture was made with.
 const QUIET: f64 = 2e-3;
