@@ -21,6 +21,8 @@ use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
+use serde::Serialize;
+
 pub use error::{PictureError, PictureFault};
 
 use crate::camera::Camera;
@@ -36,7 +38,7 @@ const MAX_PIXELS: usize = 1 << 26;
 const MAX_BYTES: u64 = 1 << 30;
 
 /// How large a pixel is. Pixels are square.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct PixelScale {
     /// Its side on the sky in µas, if known.
     pub microarcseconds: Option<f64>,
