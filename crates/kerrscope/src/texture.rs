@@ -183,6 +183,17 @@ impl Texture {
         sheet(mix(self.row(upper, u, wrap_u), self.row(lower, u, wrap_u), f))
     }
 
+    /// Light of a pixel over black.
+    pub(crate) fn light(&self, x: usize, y: usize) -> [f64; 3] {
+        let [r, g, b, _] = self.texel(x, y);
+        [r, g, b]
+    }
+
+    /// Whether the file holds light itself, and not codes for a screen.
+    pub(crate) const fn is_linear(&self) -> bool {
+        matches!(self.texels, Texels::Half(_))
+    }
+
     fn row(&self, y: usize, u: f64, wrap: bool) -> Texel {
         let (left, right, f) = if wrap { wrapped(u, self.width) } else { clamped(u, self.width) };
         mix(self.texel(left, y), self.texel(right, y), f)
