@@ -4,6 +4,7 @@
 //! 2 the input was wrong, 130 interrupted.
 
 mod bench;
+mod fit;
 mod line;
 mod manual;
 mod orbits;
@@ -63,6 +64,8 @@ enum Command {
     Line(line::Arguments),
     /// The continuum spectrum of a disk of black bodies
     Spectrum(spectrum::Arguments),
+    /// What a picture says of a hole and its disk
+    Fit(fit::Arguments),
     /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
     Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
@@ -103,6 +106,7 @@ fn main() -> ExitCode {
         Command::Shadow(a) => shadow::run(&a),
         Command::Line(a) => line::run(&a),
         Command::Spectrum(a) => spectrum::run(&a),
+        Command::Fit(a) => fit::run(&a, arguments.talk.quiet),
         Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),

@@ -14,6 +14,7 @@ pub mod nuts;
 mod observed;
 mod prior;
 mod reduce;
+pub mod request;
 mod ring;
 pub mod summary;
 pub mod traced;

@@ -59,11 +59,25 @@ impl Identity {
             let file = File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ()));
             file.map_err(|e| FileError::read(path, &e))?;
         }
-        Ok(Self {
+        Ok(Self::hashed(level, &hasher))
+    }
+
+    /// That of work of a kind which depends on these bytes alone.
+    pub fn of_work(kind: &str, level: Level, parts: &[&[u8]]) -> Self {
+        let mut hasher = blake3::Hasher::new();
+        hasher.update(kind.as_bytes()).update(b"\0");
+        for part in parts {
+            hasher.update(&(part.len() as u64).to_le_bytes()).update(part);
+        }
+        Self::hashed(level, &hasher)
+    }
+
+    fn hashed(level: Level, hasher: &blake3::Hasher) -> Self {
+        Self {
             program: env!("CARGO_PKG_VERSION").to_owned(),
             instruction_level: level.name().to_owned(),
             work: *hasher.finalize().as_bytes(),
-        })
+        }
     }
 }
 

@@ -86,7 +86,8 @@ impl OnLanes for Batch<'_> {
                     let same = |value: f64| Lanes::new(simd, [value; WIDTH]);
                     let at = [same(spin), same(inclination), alpha, beta, same(u)];
                     let [spin, inclination, alpha, beta, u] = Dual::<Lanes<L>, 5>::variables(at);
-                    let u = Impact { spin, inclination, alpha, beta, u }.inverse_radius(self.tables, self.order);
+                    let u =
+                        Impact { spin, inclination, alpha, beta, u }.inverse_radius(self.tables, self.order);
                     let values = u.value.to_array();
                     for (lane, landing) in found.iter_mut().enumerate() {
                         landing.u = values[lane];

@@ -177,7 +177,14 @@ impl<'a, S: Scalar, const PLAIN: bool, const TIMED: bool> Sweep<'a, S, PLAIN, TI
         let photon_u = self.start.photon.u.still();
         let guess = tau.outline(
             #[inline(always)]
-            || weierstrass::inverse_radius::<_, false>(&self.potential.still(), photon_u, inwards, tau.still()),
+            || {
+                weierstrass::inverse_radius::<_, false>(
+                    &self.potential.still(),
+                    photon_u,
+                    inwards,
+                    tau.still(),
+                )
+            },
         );
         let late = self.first.tau.less(tau);
         let from = S::select(late, self.middle, self.from);

@@ -1,0 +1,353 @@
+//! `kerrscope fit`: what a picture says of the hole and its disk.
+
+use std::fmt::Write;
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::Ordering;
+use std::time::Instant;
+
+use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
+use kerrscope::measure::Picture;
+use kerrscope::spacetime::Level;
+use kerrscope_fit::Observed;
+use kerrscope_fit::fit::{Fit, FitError, Image, Keeper, Models, Options, fit};
+use kerrscope_fit::models::{Choice, Name};
+use kerrscope_fit::request::{Request, unknown_model};
+use kerrscope_fit::summary::Estimate;
+use kerrscope_fit::traced::Projection;
+use serde::Serialize;
+
+use crate::report::Failure;
+use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
+
+/// Find what a picture says of a hole and its disk: spin, inclination and all else at once, with errors.
+///
+/// The posterior of a model's parameters, given a picture in FITS, OpenEXR or any format for screens, in linear light.
+#[derive(clap::Args, Debug)]
+#[command(
+    after_help = "Without flags: an opaque disk with the flux of Page & Thorne in the light of all frequencies, from the last stable\n\
+    orbit to beyond the picture, seen by a static observer at r = 1000 M; its spin, axis, scale, centre and flux are looked for, and\n\
+    the noise is found from the picture. Where it has none, what the model may be wrong by takes its place. A wrong distance R makes\n\
+    the scale wrong by about 1/R and the inclination by up to a degree at R = 100: give it where it is known.\n\n\
+    A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
+    isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
+    model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
+    With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
+    NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
+    --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
+    effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version.\n\n\
+    Examples:\n  \
+    kerrscope fit disk.fits --distance 100\n  \
+    kerrscope fit disk.fits --free blur --prior 'inclination=isotropic(0, 90)' -o disk\n  \
+    kerrscope fit ring.fits --model ring"
+)]
+pub struct Arguments {
+    /// The picture
+    image: PathBuf,
+    /// page-thorne, power-law, thin-power-law or ring
+    #[arg(long, value_name = "NAME")]
+    model: Option<String>,
+    /// r of the observer in M, or inf: the same as --fix distance=R
+    #[arg(long, value_name = "R", value_parser = parse_distance)]
+    distance: Option<f64>,
+    /// How directions became places in the picture
+    #[arg(long, value_enum, default_value_t)]
+    projection: Shape,
+    /// A parameter that is known
+    #[arg(long, value_name = "NAME=VALUE")]
+    fix: Vec<String>,
+    /// A parameter that is not known, though it is usually taken to be
+    #[arg(long, value_name = "NAME")]
+    free: Vec<String>,
+    /// What is assumed of a parameter
+    #[arg(long, value_name = "NAME=PRIOR")]
+    prior: Vec<String>,
+    /// A file of parameters; flags count before it
+    #[arg(long, value_name = "FILE")]
+    parameters: Option<PathBuf>,
+    /// Standard deviation of each pixel's noise, in the picture's unit; found if not given
+    #[arg(long, value_name = "SIGMA", value_parser = parse_finite)]
+    noise: Option<f64>,
+    /// Seed of the random numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Rounds of 50 draws of each of four chains at most; fewer do when chains have converged
+    #[arg(long, default_value_t = 30, value_parser = clap::value_parser!(u64).range(3..=1000))]
+    rounds: u64,
+    /// Beginning of the names of files to write
+    #[arg(short, long, value_name = "NAME")]
+    output: Option<PathBuf>,
+    /// Go on where an interrupted fit with the same --output stopped
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// Threads; all of the machine's if not given
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+    /// How to print
+    #[arg(long, value_enum, default_value_t)]
+    format: Format,
+}
+
+/// How directions become places.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Shape {
+    /// Equal angles, as of pictures of the sky
+    #[default]
+    Angular,
+    /// Tangents, as in a camera
+    Pinhole,
+}
+
+#[derive(Serialize)]
+struct Output<'a> {
+    model: &'a str,
+    parameters: &'a [Estimate],
+    converged: bool,
+    good: bool,
+    warnings: &'a [String],
+    chi2: f64,
+    degrees: usize,
+    explained: f64,
+    evidence: f64,
+    evaluations: usize,
+    wall_s: f64,
+    seed: u64,
+    version: &'static str,
+}
+
+pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
+    let start = Instant::now();
+    let (choice, request) = asked(arguments)?;
+    let picture = Picture::open(&arguments.image).map_err(|error| Failure::Input(error.to_string()))?;
+    let image = Image {
+        size: [picture.width, picture.height],
+        pixel: picture.pixel.microarcseconds,
+        values: picture.values,
+    };
+    let model = Observed::new(choice.source(2), image.size);
+    let freedoms =
+        request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
+    let kept = arguments.output.as_deref().map(|name| kept(arguments, name, &image, &request)).transpose()?;
+    let bar = progress::message(quiet);
+    let flag = progress::stop_flag();
+    let options = Options {
+        freedoms,
+        noise: arguments.noise,
+        seed: arguments.seed,
+        rounds: arguments.rounds,
+        starts: Vec::new(),
+        progress: &|text| bar.set_message(text.to_owned()),
+        cancelled: &|| flag.load(Ordering::Relaxed),
+        keeper: kept.as_ref().map(|kept| kept as &dyn Keeper),
+    };
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(arguments.threads.map_or(0, NonZeroUsize::get))
+        .build()
+        .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
+    let found = pool.install(|| fit(&image, &choice, &options));
+    bar.finish_and_clear();
+    let found = found.map_err(|error| match error {
+        FitError::Cancelled => Failure::Interrupted(match &arguments.output {
+            Some(_) => "the same command with --resume goes on".to_owned(),
+            None => "nothing was kept: with --output NAME it can be gone on with".to_owned(),
+        }),
+        FitError::Keeper(fault) => Failure::Failed(fault),
+        wrong => Failure::Input(format!("{}: {wrong}", arguments.image.display())),
+    })?;
+    let output = Output {
+        model: choice.name.name(),
+        parameters: &found.estimates,
+        converged: found.converged,
+        good: found.good,
+        warnings: &found.warnings,
+        chi2: found.chi2,
+        degrees: found.degrees,
+        explained: found.explained,
+        evidence: found.evidence,
+        evaluations: found.evaluations,
+        wall_s: start.elapsed().as_secs_f64(),
+        seed: arguments.seed,
+        version: env!("CARGO_PKG_VERSION"),
+    };
+    if let Some(name) = &arguments.output {
+        files(name, &image, &found, &output)?;
+    }
+    if let Some(kept) = kept {
+        kept.checkpoint.remove().map_err(|e| Failure::Failed(e.to_string()))?;
+    }
+    if arguments.format == Format::Json { print_json(&output) } else { print(&table(&output)) }
+}
+
+/// The model and what is said of its parameters; all faults at once.
+fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
+    let mut faults = Vec::new();
+    let (mut name, mut request) = (None, Request::default());
+    if let Some(path) = &arguments.parameters {
+        match std::fs::read_to_string(path)
+            .map_err(|e| e.to_string())
+            .and_then(|text| Request::from_toml(&text))
+        {
+            Ok((model, said)) => (name, request) = (model, said),
+            Err(fault) => faults.push(format!("{}: {fault}", path.display())),
+        }
+    }
+    if let Some(text) = &arguments.model {
+        match Name::named(text) {
+            Some(model) => name = Some(model),
+            None => faults.push(unknown_model(text)),
+        }
+    }
+    let said = &mut request.parameters;
+    said.extend(arguments.distance.map(|distance| ("distance".to_owned(), distance.to_string())));
+    said.extend(arguments.free.iter().map(|name| (name.clone(), "free".to_owned())));
+    for (flag, texts, form) in [
+        ("--fix", &arguments.fix, "NAME=VALUE, as spin=0.9"),
+        ("--prior", &arguments.prior, "NAME=PRIOR, as 'spin=uniform(0, 1)'"),
+    ] {
+        for text in texts {
+            match text.split_once('=') {
+                Some((name, words)) if flag == "--prior" || words.trim().parse::<f64>().is_ok() => {
+                    said.push((name.trim().to_owned(), words.to_owned()));
+                }
+                _ => faults.push(format!("{flag} {text:?}: give {form}")),
+            }
+        }
+    }
+    if let Some(noise) = arguments.noise
+        && noise <= 0.0
+    {
+        faults.push(format!("--noise is {noise}, and has to be above 0"));
+    }
+    let projection = match arguments.projection {
+        Shape::Angular => Projection::Angular,
+        Shape::Pinhole => Projection::Pinhole,
+    };
+    let choice = Choice { name: name.unwrap_or_default(), projection };
+    if choice.name == Name::Ring && arguments.distance.is_some() {
+        faults.push("a ring on the sky has no distance: leave --distance away".to_owned());
+    }
+    if faults.is_empty() { Ok((choice, request)) } else { Err(Failure::Input(faults.join("\nerror: "))) }
+}
+
+/// Rounds of chains in a checkpoint.
+struct Kept {
+    checkpoint: Checkpoint,
+    before: Mutex<Vec<(u64, Vec<u8>)>>,
+}
+
+impl Keeper for Kept {
+    fn kept(&self, round: u64) -> Option<Vec<u8>> {
+        let before = self.before.lock().ok()?;
+        before.iter().find(|(number, _)| *number == round).map(|(_, contents)| contents.clone())
+    }
+
+    fn keep(&self, round: u64, contents: &[u8]) -> Result<(), String> {
+        self.checkpoint
+            .keep(round, contents)
+            .and_then(|()| self.checkpoint.flush())
+            .map_err(|e| e.to_string())
+    }
+}
+
+/// The checkpoint beside the files to write.
+fn kept(arguments: &Arguments, name: &Path, image: &Image, request: &Request) -> Result<Kept, Failure> {
+    let mut path = name.as_os_str().to_owned();
+    path.push(".checkpoint");
+    let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
+    let settings = format!(
+        "{:?} {:?} {:?} {:?} {:?} {}",
+        image.size, request, arguments.model, arguments.projection, arguments.noise, arguments.seed
+    );
+    let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
+    let path = Path::new(&path);
+    let opened = if arguments.resume {
+        Checkpoint::resume(path, &identity)
+    } else {
+        Checkpoint::start(path, &identity)
+    };
+    let checkpoint = opened.map_err(|error| match error {
+        CheckpointError::File(e) => Failure::Failed(e.to_string()),
+        wrong => Failure::Input(wrong.to_string()),
+    })?;
+    let mut before = Vec::new();
+    checkpoint
+        .parts(|number, contents| before.push((number, contents.to_vec())))
+        .map_err(|e| Failure::Failed(e.to_string()))?;
+    Ok(Kept { checkpoint, before: Mutex::new(before) })
+}
+
+/// Writes the files of a fit.
+fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Result<(), Failure> {
+    let file = |ending: &str| {
+        let mut path = name.as_os_str().to_owned();
+        path.push(ending);
+        PathBuf::from(path)
+    };
+    let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
+    let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
+    kerrscope::output::file::write_atomically(&file(".json"), |writer| {
+        std::io::Write::write_all(writer, json.as_bytes())
+    })
+    .map_err(|e| failed(&e))?;
+    let _ = (image, found);
+    Ok(())
+}
+
+/// The table, for reading.
+fn table(output: &Output<'_>) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{:<16} {:>13} {:>13} {:>11} {:>13} {:>13}  unit",
+        "parameter", "mode", "mean", "sd", "2.5 %", "97.5 %"
+    );
+    for e in output.parameters.iter().filter(|e| e.free) {
+        let number = |value: f64| significant(value, e.sd);
+        let _ = writeln!(
+            text,
+            "{:<16} {:>13} {:>13} {:>11.2e} {:>13} {:>13}  {}",
+            e.name,
+            number(e.mode),
+            number(e.mean),
+            e.sd,
+            number(e.q025),
+            number(e.q975),
+            e.unit
+        );
+    }
+    let fixed: Vec<String> = output
+        .parameters
+        .iter()
+        .filter(|e| !e.free)
+        .map(|e| format!("{} = {} {}", e.name, e.mode, e.unit).trim_end().to_owned())
+        .collect();
+    let _ = writeln!(text, "\nfixed: {}", fixed.join(", "));
+    let _ = writeln!(
+        text,
+        "model {}: {:.2} % of the variance explained, χ² {:.1} for {} degrees of freedom; {} evaluations in {:.0} s",
+        output.model,
+        100.0 * output.explained,
+        output.chi2,
+        output.degrees,
+        output.evaluations,
+        output.wall_s
+    );
+    for warning in output.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    text.trim_end().to_owned()
+}
+
+/// A number with as many digits as its error leaves it, and two more.
+fn significant(value: f64, error: f64) -> String {
+    if !(error > 0.0) {
+        return format!("{value}");
+    }
+    let digits = (2.0 - error.log10()).ceil();
+    if (0.0..=9.0).contains(&digits) && value.abs() < 1e7 {
+        format!("{value:.*}", digits as usize)
+    } else {
+        format!("{value:.5e}")
+    }
+}
