@@ -6,6 +6,7 @@
 mod bench;
 mod line;
 mod manual;
+mod measure;
 mod orbits;
 mod plot;
 mod progress;
@@ -17,6 +18,7 @@ mod side_view;
 mod source;
 mod spacetime;
 mod spectrum;
+mod thesis;
 mod trace;
 mod validate;
 
@@ -63,6 +65,10 @@ enum Command {
     Line(line::Arguments),
     /// The continuum spectrum of a disk of black bodies
     Spectrum(spectrum::Arguments),
+    /// Shadow, ring and disk in a picture, in numbers
+    Measure(measure::Arguments),
+    /// The tables of the thesis, read off pictures and from exact rays
+    Thesis(thesis::Arguments),
     /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
     Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
@@ -103,6 +109,8 @@ fn main() -> ExitCode {
         Command::Shadow(a) => shadow::run(&a),
         Command::Line(a) => line::run(&a),
         Command::Spectrum(a) => spectrum::run(&a),
+        Command::Measure(a) => measure::run(&a),
+        Command::Thesis(a) => thesis::run(&a),
         Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),
