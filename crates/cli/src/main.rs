@@ -7,6 +7,7 @@ mod bench;
 mod fit;
 mod line;
 mod manual;
+mod measure;
 mod orbits;
 mod plot;
 mod progress;
@@ -18,6 +19,7 @@ mod side_view;
 mod source;
 mod spacetime;
 mod spectrum;
+mod thesis;
 mod trace;
 mod validate;
 
@@ -66,6 +68,10 @@ enum Command {
     Spectrum(spectrum::Arguments),
     /// What a picture says of a hole and its disk
     Fit(fit::Arguments),
+    /// Shadow, ring and disk in a picture, in numbers
+    Measure(measure::Arguments),
+    /// The tables of the thesis, read off pictures and from exact rays
+    Thesis(thesis::Arguments),
     /// Metric, connection, curvature and geodesics of a geometry, in any coordinates
     Spacetime(spacetime::Arguments),
     /// Compute every reference number and compare it with its source
@@ -107,6 +113,8 @@ fn main() -> ExitCode {
         Command::Line(a) => line::run(&a),
         Command::Spectrum(a) => spectrum::run(&a),
         Command::Fit(a) => fit::run(&a, arguments.talk.quiet),
+        Command::Measure(a) => measure::run(&a),
+        Command::Thesis(a) => thesis::run(&a),
         Command::Spacetime(a) => spacetime::run(&a),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),

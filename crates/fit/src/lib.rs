@@ -16,6 +16,7 @@ mod prior;
 mod reduce;
 pub mod request;
 mod ring;
+mod search;
 pub mod summary;
 pub mod traced;
 mod verdict;
