@@ -32,6 +32,18 @@ impl Corner {
         Self { place, numbers }
     }
 
+    /// Between this and another.
+    pub fn between(&self, other: &Self, share: f64) -> Self {
+        let mut corner = *self;
+        for (number, to) in corner.numbers.iter_mut().zip(other.numbers) {
+            *number += share * (to - *number);
+        }
+        for (place, to) in corner.place.iter_mut().zip(other.place) {
+            *place += share * (to - *place);
+        }
+        corner
+    }
+
     /// Its brightness.
     pub fn light(&self) -> f64 {
         self.numbers[0]

@@ -7,8 +7,10 @@ mod order;
 mod picture;
 mod pieces;
 mod screen;
+mod sketch;
 mod source;
 mod start;
+mod strips;
 
 pub use canvas::Canvas;
 pub use matter::Profile;

@@ -10,12 +10,14 @@ use std::sync::OnceLock;
 use kerrscope::spacetime::closed::Landings;
 use kerrscope::spacetime::kerr::Orbits;
 
-use super::canvas::{CHANNELS, Canvas, Corner, Layout, MOVERS};
-use super::lines::{Around, Basis, Lines, Point};
+use super::canvas::{Canvas, Layout};
+use super::lines::{Around, Lines};
 use super::matter::{Matter, Profile};
 use super::order::{HOLE, NotFound, ORDERS, View, solve};
-use super::pieces::{Bound, MOVES, Rates, edges, left};
-use super::screen::{Frame, Projection, SCREEN, Screen};
+use super::pieces::{MOVES, Rates};
+use super::screen::{Frame, Projection, Screen};
+use super::sketch::Sketch;
+use super::strips::Painting;
 
 /// A disk in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,10 +43,10 @@ pub struct Setting {
 pub const DRAWN: usize = 11;
 
 /// First channels of the hole's, the edges' and the frame's parameters.
-const AT_HOLE: usize = 1;
-const AT_EDGES: usize = AT_HOLE + HOLE;
-const AT_INDEX: usize = AT_EDGES + 2;
-const AT_FRAME: usize = AT_INDEX + 1;
+pub(super) const AT_HOLE: usize = 1;
+pub(super) const AT_EDGES: usize = AT_HOLE + HOLE;
+pub(super) const AT_INDEX: usize = AT_EDGES + 2;
+pub(super) const AT_FRAME: usize = AT_INDEX + 1;
 
 /// Where derivatives are put.
 const LAYOUT: Layout = Layout { glows: [1, 2, 3, AT_INDEX], movers: [1, 2, 3, 7, 8, 9, 10] };
@@ -160,7 +162,8 @@ impl Painter {
         for (order, image) in images.iter().enumerate() {
             let before = if self.opaque { &images[..order] } else { &[] };
             let rows = thinned(&self.rows(&matter, [inner, outer(order, 0.0)]), order);
-            self.paint(&sketch, image, before, &rates, &rows, &mut canvas);
+            Painting { sketch: &sketch, image, before, rates: &rates, rows: &rows }
+                .draw(self.fineness.lines, &mut canvas);
         }
         Ok(canvas)
     }
@@ -224,59 +227,6 @@ impl Painter {
         }
         rows
     }
-
-    /// Draws what is seen of an image past those before it.
-    fn paint(
-        &self,
-        sketch: &Sketch,
-        image: &Lines,
-        before: &[Lines],
-        rates: &Rates,
-        rows: &[f64],
-        canvas: &mut Canvas,
-    ) {
-        let lines = self.fineness.lines;
-        let stretches: Vec<Vec<[Bound; 2]>> = (0..lines)
-            .map(|line| {
-                let others = before.iter().map(|other| edges(other, line, rates)).collect();
-                left(edges(image, line, rates), others)
-            })
-            .collect();
-        let bases: Vec<Basis> = rows.iter().map(|t| Basis::at(*t)).collect();
-        for rank in 0..=before.len() {
-            if stretches.iter().all(|line| line[rank][1].rho <= line[rank][0].rho) {
-                continue;
-            }
-            let strip = |line: usize| {
-                let bounds = stretches[line][rank];
-                if before.is_empty() {
-                    let corners = bases
-                        .iter()
-                        .zip(rows)
-                        .map(|(basis, t)| sketch.corner(image, line, &image.along(line, *t, basis)));
-                    return Strip { bounds, line, corners: corners.collect() };
-                }
-                let [from, to] = bounds.map(|bound| image.find(line, bound.rho));
-                let corners = rows.iter().map(|row| {
-                    let t = from + (to - from) * row;
-                    sketch.corner(image, line, &image.at(line, t))
-                });
-                Strip { bounds, line, corners: corners.collect() }
-            };
-            let first = strip(0);
-            let mut last = strip(0);
-            for line in 1..=lines {
-                let next = if line == lines { first.clone() } else { strip(line) };
-                for (low, high) in last.corners.windows(2).zip(next.corners.windows(2)) {
-                    canvas.cell([&low[0], &low[1], &high[1], &high[0]]);
-                }
-                if sketch.derivatives {
-                    sketch.sweep(image, &last, &next, canvas);
-                }
-                last = next;
-            }
-        }
-    }
 }
 
 /// Fewer rows for images that are thinner.
@@ -310,110 +260,4 @@ fn cover(view: &View, reach: f64, psi: f64) -> f64 {
     let u = (1.0 - view.u * rho * sin * tilt_sin / tilt_cos) / flat;
     let least = 0.02 / reach;
     (0.5 * (u + u.hypot(2.0 * least))).sqrt()
-}
-
-/// What corners are computed from.
-struct Sketch<'a> {
-    above: bool,
-    setting: &'a Setting,
-    view: &'a View,
-    screen: &'a Screen,
-    matter: &'a Matter,
-    derivatives: bool,
-}
-
-/// A line with its corners.
-#[derive(Clone)]
-struct Strip {
-    bounds: [Bound; 2],
-    line: usize,
-    corners: Vec<Corner>,
-}
-
-impl Sketch<'_> {
-    /// How the centre of polar coordinates moves with the hole's parameters.
-    fn center(&self) -> (f64, [f64; HOLE]) {
-        let (alpha, mut moves) = self.view.center();
-        if !self.above {
-            moves[1] = -moves[1];
-        }
-        (alpha, moves)
-    }
-
-    /// The derivative in the hole's parameter `p` of what is a function of the view, whose inclination is that of the mirror image.
-    fn own(&self, p: usize, value: f64) -> f64 {
-        if p == 1 && !self.above { -value } else { value }
-    }
-
-    fn corner(&self, image: &Lines, line: usize, point: &Point) -> Corner {
-        let [cos, sin, ..] = image.rays[line];
-        let (center, center_moves) = self.center();
-        let impact = [center + point.rho * cos, point.rho * sin];
-        let sin_i = self.setting.inclination.sin();
-        let glow = self.matter.glow(point.x, -impact[0] * sin_i);
-        let spot = self.screen.spot(impact);
-        if !self.derivatives {
-            return Corner::new(spot.pixel, glow.value, [0.0; 4], [[0.0; 2]; MOVERS]);
-        }
-        // The matter keeps its radius and its direction ψ.
-        let mut glows = [glow.spin, 0.0, 0.0, glow.index];
-        let mut moves = [[0.0; 2]; MOVERS];
-        // ∂(α, β)/∂(pixel), inverted.
-        let [[xx, yx], [xy, yy]] = [spot.drift[4].map(|c| -c), spot.drift[5]];
-        let determinant = xx * yy - xy * yx;
-        for (k, drift) in spot.drift.iter().enumerate() {
-            let mut own = [0.0; 2];
-            if k < HOLE {
-                let along = self.own(k, point.drift[k]);
-                own = [center_moves[k] + along * cos, along * sin];
-                glows[k] -= glow.lambda * sin_i * own[0];
-            }
-            if k == 1 {
-                glows[1] -= glow.lambda * impact[0] * self.setting.inclination.cos();
-            }
-            let [x, y] = [own[0] - drift[0], own[1] - drift[1]];
-            moves[k] = [(yy * x - xy * y) / determinant, (xx * y - yx * x) / determinant];
-        }
-        Corner::new(spot.pixel, glow.value, glows, moves)
-    }
-
-    /// What both edges sweep over between two lines.
-    fn sweep(&self, image: &Lines, from: &Strip, to: &Strip, canvas: &mut Canvas) {
-        let (center, center_moves) = self.center();
-        for (side, sign) in [(0, -1.0), (1, 1.0)] {
-            let ends = [from, to];
-            let corners =
-                ends.map(
-                    |strip| {
-                        if side == 0 { &strip.corners[0] } else { &strip.corners[strip.corners.len() - 1] }
-                    },
-                );
-            let bounds = ends.map(|strip| strip.bounds[side]);
-            let rays = ends.map(|strip| image.rays[strip.line]);
-            let impact = [0, 1].map(|k| [center + bounds[k].rho * rays[k][0], bounds[k].rho * rays[k][1]]);
-            let along = [impact[1][0] - impact[0][0], impact[1][1] - impact[0][1]];
-            let ends = [0, 1].map(|k| {
-                let mut sweep = [0.0; CHANNELS];
-                let [cos, sin, ..] = rays[k];
-                let drift = self.screen.spot(impact[k]).drift;
-                let pixel = (drift[4][0] * drift[5][1] - drift[4][1] * drift[5][0]).abs();
-                let area = |[x, y]: [f64; 2]| sign * (x * along[1] - y * along[0]) / pixel;
-                for p in 0..SCREEN {
-                    let mut moved = [-drift[p][0], -drift[p][1]];
-                    if p < HOLE {
-                        let outwards = self.own(p, bounds[k].moves[p]);
-                        moved = [moved[0] + center_moves[p] + outwards * cos, moved[1] + outwards * sin];
-                    }
-                    let channel = if p < HOLE { AT_HOLE + p } else { AT_FRAME + p - HOLE };
-                    sweep[channel] += area(moved);
-                }
-                for p in HOLE..MOVES {
-                    let outwards = bounds[k].moves[p];
-                    sweep[AT_EDGES + p - HOLE] += area([outwards * cos, outwards * sin]);
-                }
-                (corners[k].place, corners[k].light(), sweep)
-            });
-            canvas.edge(ends);
-        }
-    }
 }

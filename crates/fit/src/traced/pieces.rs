@@ -15,6 +15,18 @@ pub struct Bound {
     pub moves: [f64; MOVES],
 }
 
+impl Bound {
+    /// Between this and another.
+    pub fn between(&self, other: &Self, share: f64) -> Self {
+        let mut bound = *self;
+        bound.rho += share * (other.rho - self.rho);
+        for (moved, to) in bound.moves.iter_mut().zip(other.moves) {
+            *moved += share * (to - *moved);
+        }
+        bound
+    }
+}
+
 /// How the x of the edges changes with the parameters that edges move with.
 #[derive(Clone, Copy, Debug)]
 pub struct Rates {
