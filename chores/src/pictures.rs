@@ -13,6 +13,8 @@ const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (Some("scenes/thesis-4.5.toml"), &["render.width=960", "render.height=540"], "scenes/thesis-4.5.png"),
     (Some("scenes/thesis-4.6.toml"), &[], "scenes/thesis-4.6.png"),
     (Some("scenes/thesis-4.8.toml"), &[], "scenes/thesis-4.8.png"),
+    (Some("scenes/thesis-5.1a.toml"), &[], "scenes/thesis-5.1a.png"),
+    (Some("scenes/thesis-5.1b.toml"), &[], "scenes/thesis-5.1b.png"),
     (Some("scenes/balls.toml"), &[], "scenes/balls.png"),
     (Some("scenes/balls.toml"), &["spacetime.name=minkowski"], "scenes/balls-flat.png"),
     (Some("scenes/earth.toml"), &[], "scenes/earth.png"),

@@ -87,6 +87,9 @@ impl Ring {
                 sums
             })
             .collect();
+        if vectors.iter().any(|[all, ..]| !(*all > 0.0)) {
+            return Err("the light has no crest: it is as bright all over, with an edge".to_owned());
+        }
         let share = |[all, x, y]: &[f64; 3]| x.hypot(*y) / all;
         let (a, a_spread) = mean_and_spread(&vectors.iter().map(share).collect::<Vec<_>>());
         // East of North: from up, over left.

@@ -258,6 +258,10 @@ pub fn root(f: impl Fn(f64) -> f64, f0: f64, f1: f64) -> f64 {
             0.5
         };
         let least = 0.5 * tolerance / width;
+        // A large constant step may end where the function is no number.
+        if !t.is_finite() {
+            t = 0.5;
+        }
         // From b towards a.
         t = t.clamp(least, 1.0 - least);
     }

@@ -11,7 +11,7 @@ use super::{Decoded, MAX_BYTES, PictureFault, PixelScale, check_size, means};
 
 /// The first flat layer with numbers of light: its channel `intensity`, or R, G and B, or Y.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, PictureFault> {
-    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(damaged)?;
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| damaged(&e))?;
     for header in &meta.headers {
         let size = header.layer_size;
         check_size(size.width(), size.height())?;
@@ -22,7 +22,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, PictureFault> {
     }
     let reader =
         read().no_deep_data().largest_resolution_level().all_channels().all_layers().all_attributes();
-    let image = reader.from_buffered(Cursor::new(bytes)).map_err(damaged)?;
+    let image = reader.from_buffered(Cursor::new(bytes)).map_err(|e| damaged(&e))?;
     for layer in &image.layer_data {
         let [width, height] = [layer.size.width(), layer.size.height()];
         let found = |name: &str| values(&layer.channel_data, name, width * height);
@@ -69,6 +69,6 @@ fn unpacked(header: &Header) -> u64 {
     block.saturating_mul(header.chunk_count as u64)
 }
 
-fn damaged(error: Error) -> PictureFault {
+fn damaged(error: &Error) -> PictureFault {
     PictureFault::Damaged(error.to_string())
 }

@@ -13,7 +13,7 @@ const MICROARCSECOND: f64 = 1.0 / 3.6e9;
 
 /// The first image with data. Its rows are turned to the top row first, and its columns so that East is left.
 pub(super) fn decode(bytes: &[u8]) -> Result<Decoded, PictureFault> {
-    let mut reader = FitsReader::from_bytes(bytes).map_err(damaged)?;
+    let mut reader = FitsReader::from_bytes(bytes).map_err(|e| damaged(&e))?;
     let images: Vec<usize> = (0..reader.hdus().len()).filter(|&k| holds(&reader.hdus()[k])).collect();
     let first = *images.first().ok_or_else(|| match reader.scan_defect() {
         Some(defect) => PictureFault::Damaged(defect.to_string()),
@@ -56,7 +56,7 @@ fn holds(hdu: &fits_well::io::Hdu) -> bool {
 
 fn read(reader: &mut SliceReader<'_>, number: usize) -> Result<Sheet, PictureFault> {
     let hdu = &reader.hdus()[number];
-    let shape = hdu.image_metadata().map_err(damaged)?.shape.to_vec();
+    let shape = hdu.image_metadata().map_err(|e| damaged(&e))?.shape.to_vec();
     if shape.len() < 2 || shape[2..].iter().any(|&n| n != 1) {
         let text: Vec<String> = shape.iter().map(ToString::to_string).collect();
         return Err(PictureFault::Axes(text.join("×")));
@@ -65,7 +65,10 @@ fn read(reader: &mut SliceReader<'_>, number: usize) -> Result<Sheet, PictureFau
     check_size(width, height)?;
     let axes = Axes::of(&hdu.header)?;
     let mut stored = Vec::new();
-    reader.image(number).and_then(|mut image| image.physical_into(.., &mut stored)).map_err(damaged)?;
+    reader
+        .image(number)
+        .and_then(|mut image| image.physical_into(.., &mut stored))
+        .map_err(|e| damaged(&e))?;
     if stored.len() != width * height {
         return Err(PictureFault::Damaged("it ends before the picture does".to_owned()));
     }
@@ -125,6 +128,6 @@ impl Axes {
     }
 }
 
-fn damaged(error: FitsError) -> PictureFault {
+fn damaged(error: &FitsError) -> PictureFault {
     PictureFault::Damaged(error.to_string())
 }
