@@ -3,7 +3,9 @@
 //! The group `posterior` has a dataset for each free parameter by its name, of 64-bit floating-point numbers, chain × draw,
 //! whose attribute `unit` is its unit, empty for a number. The group `sample_stats` has `lp`, the logarithm of the posterior's
 //! density, in the same shape, and the attribute `diverging`, the number of trajectories of all chains that went astray. Both groups
-//! have the coordinates `chain` and `draw`, counted from 0. The root's attributes say how the file was made: `program`, `version`,
+//! have the coordinates `chain` and `draw`, counted from 0, whose attributes CLASS and NAME make them dimensions to h5netcdf, with which
+//! ArviZ and xarray read files. (It finds the dimensions of a dataset by their lengths, because references to them, DIMENSION_LIST, are
+//! not there; netCDF's own library numbers them.) The root's attributes say how the file was made: `program`, `version`,
 //! `seed`, and `model`, a list of `name = value`.
 //!
 //! There is no date: the same chains are the same bytes. The whole file is made in memory.
@@ -66,15 +68,14 @@ pub fn encode(to: impl Write, fit: &Fit, record: &Record<'_>) -> io::Result<()> 
 
 /// Numbers of the chains and of the draws, as dimension scales.
 fn coordinates(group: &mut GroupBuilder, shape: [usize; 2]) {
-    for (k, (name, count)) in ["chain", "draw"].into_iter().zip(shape).enumerate() {
-        let numbers: Vec<i64> = (0..count as i64).collect();
+    for (name, count) in ["chain", "draw"].into_iter().zip(shape.map(|count| count as u64)) {
+        let numbers: Vec<i64> = (0..count).map(u64::cast_signed).collect();
         group
             .create_dataset(name)
             .with_i64_data(&numbers)
-            .with_shape(&[count as u64])
+            .with_shape(&[count])
             .set_attr("CLASS", AttrValue::AsciiString("DIMENSION_SCALE".to_owned()))
-            .set_attr("NAME", AttrValue::AsciiString(name.to_owned()))
-            .set_attr("_Netcdf4Dimid", AttrValue::I32(k as i32));
+            .set_attr("NAME", AttrValue::AsciiString(name.to_owned()));
     }
 }
 
@@ -87,8 +88,7 @@ fn dataset(group: &mut GroupBuilder, name: &str, unit: &str, values: &[f64], sha
         .with_chunks(&[1, draws.min(CHUNK)])
         .with_shuffle()
         .with_deflate(4)
-        .set_attr("unit", AttrValue::VarLenString(unit.to_owned()))
-        .set_attr("_Netcdf4Coordinates", AttrValue::I32Array(vec![0, 1]));
+        .set_attr("unit", AttrValue::VarLenString(unit.to_owned()));
 }
 
 #[cfg(test)]

@@ -280,7 +280,7 @@ fn below(svg: &mut String, axis: &Axis, [x, y]: [f64; 2]) {
         svg,
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" font-size=\"12\">{}</text>",
         x + 0.5 * PANEL,
-        y + MARGINS[3] - 14.0,
+        y + MARGINS[3] - 24.0,
         axis.label()
     );
 }
@@ -324,8 +324,9 @@ mod tests {
         let fit = synthetic::fit(&synthetic::image([8, 8]));
         let svg = corner(&fit, "a <ring> & more");
         let folder = tempfile::tempdir()?;
-        let path = std::env::var_os("CORNER_SVG").map_or_else(|| folder.path().join("c.svg"), Into::into);
-        std::fs::write(path, &svg)?;
+        let path = folder.path().join("corner.svg");
+        std::fs::write(&path, &svg)?;
+        assert_eq!(std::fs::read_to_string(&path)?, svg);
         assert_eq!((count(&svg, "class=\"one\""), count(&svg, "class=\"two\"")), (3, 3));
         assert_eq!((count(&svg, "class=\"contour\""), count(&svg, "class=\"interval\"")), (6, 3));
         assert_eq!((count(&svg, "<svg"), count(&svg, "</svg>")), (7, 7));

@@ -40,7 +40,9 @@ impl Density {
         if total == 0.0 {
             return None;
         }
-        counts.iter_mut().for_each(|count| *count /= total);
+        for count in &mut counts {
+            *count /= total;
+        }
         // Along the rows, then along the columns.
         Some(Self { values: smoothed(&smoothed(&counts)) })
     }
@@ -89,17 +91,17 @@ fn smoothed(values: &[f64]) -> Vec<f64> {
     for row in 0..BINS {
         for column in 0..BINS {
             for k in 0..=2 * REACH {
-                let to = (column + k) as isize - REACH as isize;
-                let last = BINS as isize - 1;
-                let mirrored = if to < 0 {
-                    -1 - to
-                } else if to > last {
-                    2 * last + 1 - to
+                // Where it goes, counted from as many bins before the first.
+                let to = column + k;
+                let mirrored = if to < REACH {
+                    REACH - 1 - to
+                } else if to >= BINS + REACH {
+                    2 * BINS + REACH - 1 - to
                 } else {
-                    to
+                    to - REACH
                 };
                 let share = weight(k.abs_diff(REACH)) / sum;
-                turned[mirrored as usize * BINS + row] += share * values[row * BINS + column];
+                turned[mirrored * BINS + row] += share * values[row * BINS + column];
             }
         }
     }

@@ -354,7 +354,7 @@ mod tests {
         let mut reader = FitsReader::open(Cursor::new(file))?;
         let all = [("data", &found.data), ("best", &found.best), ("residual", &found.residual)];
         for (k, (name, values)) in all.into_iter().chain([("error", &found.error)]).enumerate() {
-            assert_eq!(reader.hdus()[k].extname()?.as_deref(), Some(name));
+            assert_eq!(reader.hdus()[k].extname()?, Some(name));
             let bytes = reader.read_data_unit(k)?;
             let read: Vec<f64> = bytes.chunks_exact(8).take(80).map(big_endian).collect();
             let upright: Vec<f64> = read.chunks(10).rev().flatten().copied().collect();
