@@ -132,8 +132,8 @@ fn raised(power: i32) -> String {
 /// A corner plot of all free parameters: on the diagonal the histogram of each, with its median and 68 % interval above it and as
 /// lines; below it, for each two, the regions of highest density that hold 39 % and 86 % of the draws, and draws as points.
 ///
-/// Axes show the middle 99.6 % of the draws and a little more. Angles (`position_angle`, in degrees) go around their mean direction, so that those around
-/// North may be above 360 or below 0.
+/// Axes show the middle 99.6 % of the draws and a little more. Angles (`position_angle`, in degrees) go around their mean
+/// direction, so that those around North may be above 360 or below 0.
 pub fn corner(fit: &Fit, title: &str) -> String {
     let axes: Vec<Axis> = (0..fit.free.len()).map(|k| Axis::of(fit, k)).collect();
     let [left, top, right, bottom] = MARGINS;
