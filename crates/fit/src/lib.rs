@@ -12,6 +12,7 @@ pub mod models;
 pub mod noise;
 pub mod nuts;
 mod observed;
+pub mod output;
 mod prior;
 mod reduce;
 pub mod request;
