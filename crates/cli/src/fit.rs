@@ -9,10 +9,13 @@ use std::time::Instant;
 
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::measure::Picture;
+use kerrscope::output::file::write_atomically;
 use kerrscope::spacetime::Level;
 use kerrscope_fit::Observed;
 use kerrscope_fit::fit::{Fit, FitError, Image, Keeper, Models, Options, fit};
 use kerrscope_fit::models::{Choice, Name};
+use kerrscope_fit::output::residual::Residual;
+use kerrscope_fit::output::{Record, chain, corner};
 use kerrscope_fit::request::{Request, unknown_model};
 use kerrscope_fit::summary::Estimate;
 use kerrscope_fit::traced::Projection;
@@ -286,12 +289,22 @@ fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Result
     };
     let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
     let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
-    kerrscope::output::file::write_atomically(&file(".json"), |writer| {
-        std::io::Write::write_all(writer, json.as_bytes())
-    })
-    .map_err(|e| failed(&e))?;
-    let _ = (image, found);
-    Ok(())
+    whole(&file(".json"), &json)?;
+    let words: Vec<(String, String)> = std::iter::once(("model".to_owned(), output.model.to_owned()))
+        .chain(output.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string())))
+        .collect();
+    let record = Record { seed: output.seed, model: &words };
+    chain::write(&file(".chain.h5"), found, &record).map_err(|e| failed(&e))?;
+    let title = format!("{} fitted to {}", output.model, name.display());
+    whole(&file(".corner.svg"), &corner::corner(found, &title))?;
+    let residual = Residual::of(image, found);
+    residual.write_png(&file(".residual.png"), &record).map_err(|e| failed(&e))?;
+    residual.write_fits(&file(".residual.fits"), &record).map_err(|e| failed(&e))
+}
+
+/// Writes a text, whole or not at all.
+fn whole(path: &Path, text: &str) -> Result<(), Failure> {
+    write_atomically(path, |file| file.write_all(text.as_bytes())).map_err(|e| Failure::Failed(e.to_string()))
 }
 
 /// The table, for reading.

@@ -40,7 +40,9 @@ impl Kernel {
             .enumerate()
             .map(|(k, w)| w / sum * ((k as f64).powi(2) - square) / sigma.powi(3) / FWHM)
             .collect();
-        weights.iter_mut().for_each(|w| *w /= sum);
+        for weight in &mut weights {
+            *weight /= sum;
+        }
         Self { weights, slopes }
     }
 

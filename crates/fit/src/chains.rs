@@ -93,7 +93,7 @@ impl Metric {
     }
 
     /// That of draws, with the present one counting as some of them.
-    fn from_draws(&self, places: &[Vec<f64>]) -> Self {
+    fn shaped_by(&self, places: &[Vec<f64>]) -> Self {
         let n = self.origin.len();
         let count = places.len() as f64;
         let inner: Vec<DVector<f64>> = places.iter().map(|q| self.inside(q)).collect();
@@ -123,7 +123,7 @@ impl Metric {
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Chains {
     metric: Metric,
-    chains: Vec<Chain>,
+    members: Vec<Chain>,
     /// Whether chains move along trajectories, because leaps fail.
     trajectories: bool,
     /// Rounds done, those that are not kept among them.
@@ -169,7 +169,7 @@ impl<S: Source> Field<'_, S> {
                 None
             })
             .collect();
-        Some(Chains { metric, chains: chains?, trajectories: false, rounds: 0 })
+        Some(Chains { metric, members: chains?, trajectories: false, rounds: 0 })
     }
 
     /// A mode, by its weight.
@@ -216,7 +216,7 @@ impl<S: Source> Field<'_, S> {
         };
         let (metric, trajectories) = (chains.metric.clone(), chains.trajectories);
         let mut draws: Vec<Draws> = chains
-            .chains
+            .members
             .par_iter_mut()
             .enumerate()
             .map(|(number, chain)| {
@@ -235,11 +235,11 @@ impl<S: Source> Field<'_, S> {
             if chains.trajectories
                 && let Some(mode) = self.modes.first()
             {
-                self.change(&mut chains, Metric::around(mode));
+                Self::change(&mut chains, Metric::around(mode));
             }
         } else if round == 0 || (trajectories && round == TRIED.len() + 1) {
-            let next = metric.from_draws(&places());
-            self.change(&mut chains, next);
+            let next = metric.shaped_by(&places());
+            Self::change(&mut chains, next);
         }
         if warm.is_some() {
             for d in &mut draws {
@@ -251,8 +251,8 @@ impl<S: Source> Field<'_, S> {
     }
 
     /// Goes over to other coordinates.
-    fn change(&self, chains: &mut Chains, next: Metric) {
-        for chain in &mut chains.chains {
+    fn change(chains: &mut Chains, next: Metric) {
+        for chain in &mut chains.members {
             let q = chains.metric.outside(&chain.state.z);
             chain.state =
                 State { z: next.inside(&q).as_slice().to_vec(), log: chain.state.log, gradient: Vec::new() };

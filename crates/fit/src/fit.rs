@@ -172,7 +172,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
             all.diverged += draws.diverged;
         }
         let count = all[0].places.len();
-        (options.progress)(&format!("{} draws of {CHAINS} chains", count));
+        (options.progress)(&format!("{count} draws of {CHAINS} chains"));
         if count < 2 * ROUND {
             continue;
         }

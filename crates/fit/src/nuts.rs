@@ -98,7 +98,7 @@ pub fn step<T: Target>(target: &mut T, state: &State, size: f64, rng: &mut Pcg64
         if walk.rng.random::<f64>() < (next.weight - tree.weight).exp() {
             tree.chosen = next.chosen.clone();
         }
-        tree = join(tree, next, side);
+        tree = join(tree, &next, side);
         if tree.ended {
             break;
         }
@@ -119,7 +119,7 @@ fn turns(total: &[f64], ends: [&Point; 2]) -> bool {
     ends.iter().any(|end| end.momentum.iter().zip(total).map(|(a, b)| a * b).sum::<f64>() <= 0.0)
 }
 
-fn join(mut old: Tree, new: Tree, side: usize) -> Tree {
+fn join(mut old: Tree, new: &Tree, side: usize) -> Tree {
     let total: Vec<f64> = old.total.iter().zip(&new.total).map(|(a, b)| a + b).collect();
     let (inner_old, inner_new) = (&old.ends[side], &new.ends[1 - side]);
     // Across the seam too.
@@ -153,7 +153,7 @@ impl<T: Target> Walk<'_, T> {
         } else {
             first.chosen.clone()
         };
-        Tree { chosen, ..join(first, second, side) }
+        Tree { chosen, ..join(first, &second, side) }
     }
 
     /// One leapfrog step.

@@ -32,7 +32,7 @@ pub fn judge(
     let alike = neighbours(&residuals, image.size);
     let excess =
         left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
-    let known = freedoms.len() > 0 && fit.estimates.iter().all(|e| e.name != "noise");
+    let known = !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise");
     let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
     if beyond > UNEXPLAINED * variance || excess || heavy {
         fit.good = false;

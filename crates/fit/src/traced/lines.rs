@@ -197,9 +197,9 @@ impl Lines {
         for _ in 0..60 {
             let point = self.at(line, t);
             if point.rho < rho {
-                low = t
+                low = t;
             } else {
-                high = t
+                high = t;
             }
             let width = self.outer[line][0] - self.inner;
             let step = (rho - point.rho) * point.slope[0] / width;

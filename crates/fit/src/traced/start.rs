@@ -51,7 +51,9 @@ pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
     let factor = size[0].max(size[1]).div_ceil(COARSE).max(1);
     let (mut means, small) = reduced(values, size, factor);
     let mean = means.iter().sum::<f64>() / means.len().max(1) as f64;
-    means.iter_mut().for_each(|value| *value -= mean);
+    for value in &mut means {
+        *value -= mean;
+    }
     let square = means.iter().map(|value| value * value).sum::<f64>();
     if !(square > 0.0) {
         return Vec::new();
