@@ -70,7 +70,7 @@ pub struct Arguments {
     #[arg(long, value_name = "FILE")]
     parameters: Option<PathBuf>,
     /// Standard deviation of each pixel's noise, in the picture's unit; found if not given
-    #[arg(long, value_name = "SIGMA", value_parser = parse_finite)]
+    #[arg(long, value_name = "SIGMA", value_parser = parse_finite, allow_hyphen_values = true)]
     noise: Option<f64>,
     /// Seed of the random numbers
     #[arg(long, default_value_t = 1)]
