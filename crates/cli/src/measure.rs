@@ -5,6 +5,7 @@ use crate::{Format, parse_inclination, parse_spin, print, print_json};
 use kerrscope::measure::{Feature, Features, Measured, Overlay, Picture};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::kerr::CriticalCurve;
+use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Measures shadow, ring and disk in a picture of anybody's.
@@ -95,7 +96,7 @@ fn report(picture: &Picture, features: &Features) -> String {
         for (size, unit) in [(pixel.gravitational_radii, "M"), (pixel.microarcseconds, "uas")] {
             if let Some(size) = size {
                 let m = m.times(size);
-                text += &format!(" = {:.4} +- {:.4} {unit}", m.value, m.error);
+                let _ = write!(text, " = {:.4} +- {:.4} {unit}", m.value, m.error);
             }
         }
         text

@@ -104,7 +104,7 @@ fn other_pictures() {
         .collect();
     let features = Features::of(&Picture::of_values(128, 128, noise).unwrap());
     assert!(features.shadow.found().is_none() && features.ring.found().is_none());
-    let gradient: Vec<f64> = (0..64 * 64).map(|k| (k % 64) as f64).collect();
+    let gradient: Vec<f64> = (0..64 * 64).map(|k| f64::from(k % 64)).collect();
     assert!(Features::of(&Picture::of_values(64, 64, gradient).unwrap()).shadow.found().is_none());
     // A dot is light without a hole in it.
     let dot = box_averaged(100, |x, y| f64::from(u8::from(x.hypot(y) < 20.0)));
