@@ -29,10 +29,12 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 /// The posterior of a model's parameters, given a picture in FITS, OpenEXR or any format for screens, in linear light.
 #[derive(clap::Args, Debug)]
 #[command(
-    after_help = "Without flags: an opaque disk with the flux of Page & Thorne in the light of all frequencies, from the last stable\n\
-    orbit to beyond the picture, seen by a static observer at r = 1000 M; its spin, axis, scale, centre and flux are looked for, and\n\
-    the noise is found from the picture. Where it has none, what the model may be wrong by takes its place. A wrong distance R makes\n\
-    the scale wrong by about 1/R and the inclination by up to a degree at R = 100: give it where it is known.\n\n\
+    after_help = "Without flags: an opaque disk with the flux of Page & Thorne in the light of all frequencies,\n\
+    from the last stable orbit to beyond the picture, seen by a static observer at r = 1000 M; its\n\
+    spin, axis, scale, centre and flux are looked for, and the noise is found from the picture.\n\
+    Where it has none, what the model may be wrong by takes its place. Give --distance where it is\n\
+    known: of a disk seen from r = 100 M (a = 0.9, 60°) a fit that assumes 1000 M finds the spin\n\
+    0.035 and the inclination 1.7° too small, the scale 5 % too large, and says that it is poor.\n\n\
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
