@@ -133,7 +133,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let model = Observed::new(choice.source(2), image.size);
     let freedoms =
         request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
-    let kept = arguments.output.as_deref().map(|name| kept(arguments, name, &image, &request)).transpose()?;
+    let kept = arguments
+        .output
+        .as_deref()
+        .map(|name| kept(arguments, name, &image, (choice.name, &request)))
+        .transpose()?;
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
     let options = Options {
@@ -256,13 +260,18 @@ impl Keeper for Kept {
 }
 
 /// The checkpoint beside the files to write.
-fn kept(arguments: &Arguments, name: &Path, image: &Image, request: &Request) -> Result<Kept, Failure> {
+fn kept(
+    arguments: &Arguments,
+    name: &Path,
+    image: &Image,
+    (model, request): (Name, &Request),
+) -> Result<Kept, Failure> {
     let mut path = name.as_os_str().to_owned();
     path.push(".checkpoint");
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
         "{:?} {:?} {:?} {:?} {:?} {}",
-        image.size, request, arguments.model, arguments.projection, arguments.noise, arguments.seed
+        image.size, request, model, arguments.projection, arguments.noise, arguments.seed
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
     let path = Path::new(&path);

@@ -12,6 +12,8 @@ use crate::prior::Prior;
 enum Kind {
     /// Between bounds.
     Between(f64, f64),
+    /// Between positive bounds, in the logarithm.
+    BetweenLogs(f64, f64),
     /// Above 0.
     Positive,
     /// Anywhere, of about this size.
@@ -28,6 +30,8 @@ struct Sought {
     parameter: usize,
     prior: Prior,
     kind: Kind,
+    /// What is assumed of the second of an axis.
+    other: Prior,
 }
 
 /// The coordinates of a fit.
@@ -82,13 +86,16 @@ impl Coordinates {
                 "inclination" if axis => Kind::Axis,
                 "position_angle" if axis => continue,
                 "position_angle" => Kind::Turn,
-                _ if low.is_finite() && high.is_finite() && !matches!(prior, Prior::LogUniform(..)) => {
-                    Kind::Between(low, high)
-                }
+                _ if matches!(prior, Prior::LogUniform(..)) => Kind::BetweenLogs(low, high),
+                _ if low.is_finite() && high.is_finite() => Kind::Between(low, high),
                 _ if low >= 0.0 => Kind::Positive,
                 _ => Kind::Anywhere(sizes[k].abs().max(f64::MIN_POSITIVE)),
             };
-            sought.push(Sought { parameter: k, prior, kind });
+            let other = match (kind, freedoms.get(k + 1)) {
+                (Kind::Axis, Some(Freedom::Free(prior))) => *prior,
+                _ => Prior::Uniform(0.0, 360.0),
+            };
+            sought.push(Sought { parameter: k, prior, kind, other });
         }
         Self { start, sought }
     }
@@ -114,6 +121,10 @@ impl Coordinates {
             match sought.kind {
                 Kind::Between(low, high) => {
                     let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
+                    coordinates.push((share / (1.0 - share)).ln());
+                }
+                Kind::BetweenLogs(low, high) => {
+                    let share = ((value / low).ln() / (high / low).ln()).clamp(1e-6, 1.0 - 1e-6);
                     coordinates.push((share / (1.0 - share)).ln());
                 }
                 Kind::Positive => coordinates.push(value.max(1e-300).ln()),
@@ -151,6 +162,14 @@ impl Coordinates {
                     let jacobian = [both.ln(), 1.0 - 2.0 * share, 2.0 * both];
                     place.one(k, value, slope, sought.prior, jacobian);
                 }
+                Kind::BetweenLogs(low, high) => {
+                    let (share, width) = ((1.0 + (-take()).exp()).recip(), (high / low).ln());
+                    let value = low * (width * share).exp();
+                    let both = (share * (1.0 - share)).max(1e-300);
+                    let rate = width * both;
+                    let jacobian = [(value * both).ln(), rate + 1.0 - 2.0 * share, 2.0 * both];
+                    place.one(k, value, value * rate, sought.prior, jacobian);
+                }
                 Kind::Positive => {
                     let q = take();
                     let value = q.clamp(-600.0, 600.0).exp();
@@ -158,19 +177,30 @@ impl Coordinates {
                 }
                 Kind::Anywhere(size) => place.one(k, take() * size, size, sought.prior, [0.0; 3]),
                 Kind::Turn => {
-                    let q = take();
-                    place.one(
-                        k,
-                        q.to_degrees().rem_euclid(360.0),
-                        1f64.to_degrees(),
-                        Prior::Uniform(0.0, 360.0),
-                        [0.0; 3],
-                    );
+                    let value = take().to_degrees().rem_euclid(360.0);
+                    let degree = 1f64.to_degrees();
+                    place.one(k, value, degree, Prior::Uniform(0.0, 360.0), [0.0; 3]);
+                    let [log, rate, bend] = turned(&sought.prior, value);
+                    place.prior += log;
+                    if let (Some(slope), Some(curve)) =
+                        (place.gradient.last_mut(), place.curvature.last_mut())
+                    {
+                        *slope += rate * degree;
+                        *curve += bend * degree * degree;
+                    }
                 }
-                Kind::Axis => place.axis(k, [take(), take()], sought.prior),
+                Kind::Axis => place.axis(k, [take(), take()], [sought.prior, sought.other]),
             }
         }
         place
+    }
+}
+
+/// ln of an angle's prior, its derivative and negative curvature per degree: a Gaussian goes around, all else is alike.
+fn turned(prior: &Prior, value: f64) -> [f64; 3] {
+    match prior {
+        Prior::Normal(mean, _) => prior.log(mean + (value - mean + 180.0).rem_euclid(360.0) - 180.0),
+        _ => [0.0; 3],
     }
 }
 
@@ -185,7 +215,7 @@ impl Place {
     }
 
     /// With ρ = |v|: i = 2 atan(ρ/2), sin i di dχ = d²v/(1 + ρ²/4)², so that what is not isotropic of the prior remains.
-    fn axis(&mut self, k: usize, [x, y]: [f64; 2], prior: Prior) {
+    fn axis(&mut self, k: usize, [x, y]: [f64; 2], [prior, other]: [Prior; 2]) {
         let square = x * x + y * y;
         let reach = square.sqrt();
         let inclination = 2.0 * (0.5 * reach).atan();
@@ -198,13 +228,12 @@ impl Place {
         self.slopes.push(vec![(k, along * sin), (k + 1, around * cos)]);
         let (mut log, mut rate) = (2.0 * per.ln(), -per * reach);
         let [low, high] = prior.range([0.0, 180.0]);
-        if let Prior::Isotropic(..) = prior {
-            // Outside of its range it falls steeply instead of ending.
-            let beyond = (low - self.values[k]).max(self.values[k] - high).max(0.0);
-            let side = if self.values[k] < low { 1.0 } else { -1.0 };
-            log -= 50.0 * beyond * beyond;
-            rate += 100.0 * beyond * side * along;
-        } else {
+        // Outside of its range it falls steeply instead of ending.
+        let beyond = (low - self.values[k]).max(self.values[k] - high).max(0.0);
+        let side = if self.values[k] < low { 1.0 } else { -1.0 };
+        log -= 50.0 * beyond * beyond;
+        rate += 100.0 * beyond * side * along;
+        if !matches!(prior, Prior::Isotropic(..)) {
             let [own, slope, _] = prior.log(self.values[k]);
             // Per solid angle: divided by sin i.
             let (sin_i, cos_i) = inclination.sin_cos();
@@ -212,9 +241,13 @@ impl Place {
             log += own - sin_i.ln();
             rate += slope * along - cos_i / sin_i * per;
         }
+        let [own, slope, bend] = turned(&other, self.values[k + 1]);
+        log += own;
+        let turn = slope * around;
         self.prior += log;
-        self.gradient.extend([rate * cos, rate * sin]);
-        self.curvature.extend([per, per]);
+        self.gradient.extend([rate * cos - turn * sin, rate * sin + turn * cos]);
+        let stiff = bend * around * around;
+        self.curvature.extend([per + stiff * sin * sin, per + stiff * cos * cos]);
     }
 
     /// Derivatives with respect to coordinates from those with respect to parameters.
@@ -257,13 +290,20 @@ mod tests {
             let freedoms = [
                 Freedom::Free(Prior::Normal(0.3, 0.2)),
                 Freedom::Free(inclination),
-                Freedom::Free(Prior::Uniform(0.0, 360.0)),
-                Freedom::Free(Prior::LogUniform(0.01, 100.0)),
+                Freedom::Free(Prior::Normal(230.0, 15.0)),
+                Freedom::Free(Prior::LogUniform(0.2, 0.9)),
                 Freedom::Free(Prior::Uniform(f64::NEG_INFINITY, f64::INFINITY)),
             ];
             let coordinates = Coordinates::new(&parameters, &freedoms, &[1.0, 1.0, 1.0, 1.0, 40.0]);
             let values = [0.4, 70.0, 250.0, 0.3, 100.0];
             let q = coordinates.of(&values);
+            // Nothing lies beyond a prior's ends, however far one goes.
+            for far in [-30.0, 30.0] {
+                let mut q = q.clone();
+                q[3] = far;
+                let scale = coordinates.at(&q).values[3];
+                assert!((0.2 - 1e-9..=0.9 + 1e-9).contains(&scale), "{scale}");
+            }
             let here = coordinates.at(&q);
             for (value, back) in values.iter().zip(&here.values) {
                 assert!((value - back).abs() < 1e-9 * value.abs());

@@ -100,6 +100,12 @@ fn freedom(parameter: &Parameter, words: &str) -> Result<Freedom, String> {
         };
     }
     let prior = words.parse::<crate::Prior>().map_err(|fault| format!("{name}: {fault}"))?;
+    let round = matches!(prior, crate::Prior::Normal(..)) || prior == crate::Prior::Uniform(0.0, 360.0);
+    if *name == "position_angle" && !round {
+        return Err(format!(
+            "{name} goes around: give it a number, free, or a prior normal(MEAN, DEVIATION)"
+        ));
+    }
     let [from, to] = prior.range(parameter.bounds);
     if from < to {
         Ok(Freedom::Free(prior))
@@ -145,11 +151,17 @@ mod tests {
         assert_eq!(at(&freedoms, "spin"), Freedom::Fixed(0.9));
         assert_eq!(at(&freedoms, "blur"), Freedom::Free(Prior::Uniform(0.0, 8.0)));
         assert_eq!(at(&freedoms, "inclination"), Freedom::Free(Prior::Isotropic(0.0, 90.0)));
-        let wrong = [("spun", "0.5"), ("spin", "2"), ("scale", "uniform(3, 1)"), ("inclination", "wide")];
+        let wrong = [
+            ("spun", "0.5"),
+            ("spin", "2"),
+            ("scale", "uniform(3, 1)"),
+            ("inclination", "wide"),
+            ("position_angle", "uniform(0, 90)"),
+        ];
         let request =
             Request { parameters: wrong.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect() };
         let faults = request.freedoms(model.parameters()).unwrap_err();
-        assert_eq!(faults.len(), 4, "{faults:?}");
+        assert_eq!(faults.len(), 5, "{faults:?}");
         assert!(faults[0].contains("Did you mean spin?"), "{faults:?}");
         assert!(Request::from_toml("model = \"cat\"").unwrap_err().contains("page-thorne"));
     }
