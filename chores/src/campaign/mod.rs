@@ -1,6 +1,8 @@
 //! Long checks, each with a dated report that is kept.
 
 mod axis;
+mod coverage;
+mod ranks;
 mod resume;
 mod shadow;
 mod speed;
@@ -14,13 +16,14 @@ pub fn run(root: &Path, name: &str) -> Result<(), String> {
     let start = Instant::now();
     let (passed, body) = match name {
         "axis" => axis::run()?,
+        "coverage" => coverage::run(root)?,
         "shadow" => shadow::run()?,
         "resume" => resume::run(root)?,
         "speed" => speed::run(root)?,
         "fuzz" => super::fuzz::campaign(root)?,
         _ => {
             return Err(format!(
-                "no campaign is called {name:?}; there are: axis, shadow, resume, speed, fuzz"
+                "no campaign is called {name:?}; there are: axis, coverage, shadow, resume, speed, fuzz"
             ));
         }
     };

@@ -12,7 +12,7 @@ use kerrscope::measure::Picture;
 use kerrscope::output::file::write_atomically;
 use kerrscope::spacetime::Level;
 use kerrscope_fit::Observed;
-use kerrscope_fit::fit::{Fit, FitError, Image, Keeper, Models, Options, fit};
+use kerrscope_fit::fit::{AIM, Fit, FitError, Image, Keeper, Models, Options, fit};
 use kerrscope_fit::models::{Choice, Name};
 use kerrscope_fit::output::residual::Residual;
 use kerrscope_fit::output::{Record, chain, corner};
@@ -30,11 +30,12 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 #[derive(clap::Args, Debug)]
 #[command(
     after_help = "Without flags: an opaque disk with the flux of Page & Thorne in the light of all frequencies,\n\
-    from the last stable orbit to beyond the picture, seen by a static observer at r = 1000 M; its\n\
-    spin, axis, scale, centre and flux are looked for, and the noise is found from the picture.\n\
-    Where it has none, what the model may be wrong by takes its place. Give --distance where it is\n\
-    known: of a disk seen from r = 100 M (a = 0.9, 60°) a fit that assumes 1000 M finds the spin\n\
-    0.035 and the inclination 1.7° too small, the scale 5 % too large, and says that it is poor.\n\n\
+    from the last stable orbit to beyond the picture, seen by a static observer; its spin, axis,\n\
+    scale, centre, flux and the observer's distance are looked for, and the noise is found from the\n\
+    picture. Where it has none, what the model may be wrong by takes its place. Give --distance where it\n\
+    is known (inf for the sky): not knowing it costs errors, assuming a wrong one a bias. Of a disk\n\
+    seen from r = 100 M (a = 0.9, 60°) a fit that assumes 1000 M finds the spin 0.035 and the\n\
+    inclination 1.7° too small, the scale 5 % too large, and says that it is poor.\n\n\
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
@@ -145,6 +146,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         noise: arguments.noise,
         seed: arguments.seed,
         rounds: arguments.rounds,
+        aim: AIM,
         starts: Vec::new(),
         progress: &|text| bar.set_message(text.to_owned()),
         cancelled: &|| flag.load(Ordering::Relaxed),

@@ -32,8 +32,10 @@ pub struct Options<'a> {
     pub noise: Option<f64>,
     /// Seed of all random numbers.
     pub seed: u64,
-    /// Rounds of [`ROUND`] draws of each chain at most. Fewer are enough when R̂ < 1.01 and 400 effective draws are reached.
+    /// Rounds of [`ROUND`] draws of each chain at most. Fewer are enough when the aim is reached.
     pub rounds: u64,
+    /// What is called converged: R̂ below the first, more effective draws than the second; [`AIM`] where there is no other.
+    pub aim: (f64, f64),
     /// Where to begin, besides where the model itself would: all parameters.
     pub starts: Vec<Vec<f64>>,
     /// Is told what is being done.
@@ -55,7 +57,7 @@ pub trait Keeper: Sync {
     fn keep(&self, round: u64, contents: &[u8]) -> Result<(), String>;
 }
 
-/// Convergence that is aimed at: R̂, and the effective number of draws.
+/// Convergence that is usually aimed at: R̂, and the effective number of draws.
 pub const AIM: (f64, f64) = (1.01, 400.0);
 
 /// Why there is no fit.
@@ -178,7 +180,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         }
         kept_rounds += 1;
         estimates = summarise(&model, &posterior, &modes[0], &all, image.pixel);
-        let done = estimates.iter().all(|estimate| estimate.converged(AIM.0, AIM.1));
+        let done = estimates.iter().all(|estimate| estimate.converged(options.aim));
         if done || kept_rounds + 1 >= options.rounds {
             break;
         }
@@ -189,7 +191,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         .predict(&modes[0].evaluation.values[..model.parameters().len()], false)
         .map_err(|_| FitError::NoStart)?;
     let mut fit = Fit {
-        converged: estimates.iter().all(|estimate| estimate.converged(AIM.0, AIM.1)),
+        converged: estimates.iter().all(|estimate| estimate.converged(options.aim)),
         estimates,
         warnings: Vec::new(),
         good: true,
@@ -209,7 +211,8 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         diverged: all.iter().map(|draws| draws.diverged).sum(),
     };
     let known = (model.parameters(), options.freedoms.as_slice());
-    verdict::judge(&mut fit, image, known, modes.len(), noise::estimate(&image.values, image.size));
+    let pixel_noise = noise::estimate(&image.values, image.size);
+    verdict::judge(&mut fit, image, known, modes.len(), (pixel_noise, options.aim));
     Ok(fit)
 }
 

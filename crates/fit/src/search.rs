@@ -14,6 +14,11 @@ use crate::reduce::reduced;
 /// Pixels across the pictures with which modes are looked for.
 const SMALL: usize = 48;
 
+/// Evaluations of the first climb of every start; how many then go on, and for how many evaluations.
+const FIRST: usize = 9;
+const HOPEFUL: usize = 12;
+const SECOND: usize = 25;
+
 /// Modes that are followed, and how much less probable than the best they may be.
 const MODES: usize = 6;
 const FORGOTTEN: f64 = 12.0;
@@ -64,28 +69,38 @@ pub fn modes(
             }
         }
     }
-    let mut rough_modes: Vec<(f64, Vec<f64>, usize)> = starts
-        .par_iter()
-        .filter_map(|start| {
-            if (options.cancelled)() {
-                return None;
-            }
+    let places: Vec<Vec<f64>> = starts
+        .iter()
+        .map(|start| {
             let values: Vec<f64> = start.iter().zip(parameters).map(|(v, p)| shrink(*v, p, 1)).collect();
             let mut q = coordinates.of(&values);
             q.push(0.0);
-            let mode = climb(&near, &q, 30)?;
+            q
+        })
+        .collect();
+    let ascend = |places: &[Vec<f64>], most: usize| -> Vec<Mode> {
+        let climbed = |q: &Vec<f64>| if (options.cancelled)() { None } else { climb(&near, q, most) };
+        let mut modes: Vec<Mode> = places.par_iter().filter_map(climbed).collect();
+        modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+        modes
+    };
+    // All for a little, then those that have come far.
+    let first = ascend(&places, FIRST);
+    let hopeful: Vec<Vec<f64>> = first.iter().take(HOPEFUL).map(|mode| mode.place.clone()).collect();
+    let second = ascend(&hopeful, SECOND);
+    let rough_modes: Vec<Vec<f64>> = second
+        .iter()
+        .map(|mode| {
             let values = &mode.evaluation.values[..parameters.len()];
-            let back = values.iter().zip(parameters).map(|(v, p)| shrink(*v, p, -1)).collect();
-            Some((mode.evaluation.log, back, mode.evaluations))
+            values.iter().zip(parameters).map(|(v, p)| shrink(*v, p, -1)).collect()
         })
         .collect();
     if (options.cancelled)() {
         return Err(FitError::Cancelled);
     }
-    let mut evaluations: usize = rough_modes.iter().map(|(_, _, count)| count).sum();
-    rough_modes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut evaluations: usize = first.iter().chain(&second).map(|mode| mode.evaluations).sum();
     let mut distinct: Vec<Vec<f64>> = Vec::new();
-    for (_, values, _) in rough_modes {
+    for values in rough_modes {
         let q = posterior.coordinates.of(&values);
         let same = |other: &Vec<f64>| {
             let other = posterior.coordinates.of(other);

@@ -88,7 +88,7 @@ impl Estimate {
     }
 
     /// Whether its chains have become one and are worth so many draws.
-    pub fn converged(&self, r_hat: f64, effective: f64) -> bool {
+    pub fn converged(&self, (r_hat, effective): (f64, f64)) -> bool {
         !self.free || (self.r_hat.is_some_and(|r| r < r_hat) && self.effective.is_some_and(|n| n > effective))
     }
 }

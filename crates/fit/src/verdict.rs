@@ -1,6 +1,6 @@
 //! What is to be minded of a fit, in plain words.
 
-use crate::fit::{AIM, Fit, Image};
+use crate::fit::{Fit, Image};
 use crate::model::{Freedom, Parameter};
 use crate::noise::peak;
 
@@ -19,7 +19,7 @@ pub fn judge(
     image: &Image,
     (parameters, freedoms): (&[Parameter], &[Freedom]),
     modes: usize,
-    pixel_noise: f64,
+    (pixel_noise, aim): (f64, (f64, f64)),
 ) {
     let mut warnings = Vec::new();
     let residuals: Vec<f64> = image.values.iter().zip(&fit.best.values).map(|(d, m)| d - m).collect();
@@ -50,7 +50,7 @@ pub fn judge(
         let worst = fit
             .estimates
             .iter()
-            .filter(|e| !e.converged(AIM.0, AIM.1))
+            .filter(|e| !e.converged(aim))
             .map(|e| {
                 let (r, n) = (e.r_hat.unwrap_or(f64::NAN), e.effective.unwrap_or(f64::NAN));
                 format!("{} (R̂ {r:.3}, {n:.0} effective draws)", e.name)
@@ -60,7 +60,7 @@ pub fn judge(
         warnings.push(format!(
             "chains have not converged to R̂ < {} and {} effective draws for {worst}: give more with --rounds, or fix or bound what \
              cannot be told",
-            AIM.0, AIM.1
+            aim.0, aim.1
         ));
     }
     if modes > 1 {

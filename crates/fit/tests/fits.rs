@@ -3,8 +3,8 @@
 use std::sync::Mutex;
 
 use kerrscope_fit::Observed;
-use kerrscope_fit::fit::{Fit, FitError, Image, Keeper, Models, Options, fit};
-use kerrscope_fit::model::{Freedom, Source};
+use kerrscope_fit::fit::{AIM, Fit, FitError, Image, Keeper, Models, Options, fit};
+use kerrscope_fit::model::{Freedom, Parameter, Source};
 use kerrscope_fit::models::{Choice, Name};
 use kerrscope_fit::traced::{Disk, Fineness, Kind, Projection};
 use rand::SeedableRng;
@@ -37,12 +37,14 @@ fn run(
 ) -> Result<Fit, FitError> {
     let choice = Choice { name, ..Choice::default() };
     let model = Observed::new(choice.source(2), image.size);
-    let freedoms: Vec<Freedom> = model.parameters().iter().map(|parameter| parameter.usual).collect();
+    let known = |p: &Parameter| if p.name == "distance" { Freedom::Fixed(1000.0) } else { p.usual };
+    let freedoms: Vec<Freedom> = model.parameters().iter().map(known).collect();
     let options = Options {
         freedoms,
         noise: None,
         seed: 5,
         rounds,
+        aim: AIM,
         starts: Vec::new(),
         progress: &|_| {},
         cancelled,

@@ -27,6 +27,24 @@ fn landings_are_crossings() {
             for order in 0..3 {
                 let mut found = vec![Landing::default(); places.len()];
                 Landings::new(level).find([spin, inclination, u], order, &places, &mut found);
+                // With one derivative it is the same, one direction of the five.
+                let steps: Vec<[f64; 2]> =
+                    (0..places.len()).map(|k| [(k as f64).cos(), (k as f64).sin()]).collect();
+                let mut along = vec![[0.0; 2]; places.len()];
+                Landings::new(level).along([spin, inclination, u], order, &places, &steps, &mut along);
+                for ((landing, [u, slope]), step) in found.iter().zip(&along).zip(&steps) {
+                    let all = landing.gradient[2] * step[0] + landing.gradient[3] * step[1];
+                    let size = landing.gradient[2].hypot(landing.gradient[3]);
+                    let (off, bend) = ((u - landing.u).abs(), (slope - all).abs());
+                    assert!(
+                        off < 1e-9 * (landing.u.abs() + 1e-3),
+                        "{spin} {level:?} {order}: {u} {landing:?}"
+                    );
+                    assert!(
+                        bend < 1e-7 * (size + 1e-3),
+                        "{spin} {level:?} {order}: {slope} {all} {landing:?}"
+                    );
+                }
                 let (mut compared, mut worst) = (0, [0.0_f64; 2]);
                 for (number, (place, landing)) in places.iter().zip(&found).enumerate() {
                     let ray = impact_ray(Some(spin), inclination, distance, *place).unwrap();

@@ -2,6 +2,7 @@
 
 mod contender;
 mod course;
+mod fits;
 mod score;
 
 use contender::Contender;
@@ -20,9 +21,12 @@ use kerrscope::spacetime::Level;
     equatorial crossings (r and φ) and its direction. Errors are against the closed form with 48 nodes on\n\
     the same rays, outside 1 % of the critical curve. Rates are the median of several passes. RK4, which is\n\
     slow, follows one ray in 61 unless there is --thin.\n\n\
+    --fit times what `kerrscope fit` does instead: the likelihood of 128 × 128 pixels with its gradients in\n\
+    all parameters, and a whole fit, with their errors.\n\n\
     Examples:\n  \
     kerrscope bench --engine closed-form\n  \
-    kerrscope bench --simd baseline --format json"
+    kerrscope bench --simd baseline --format json\n  \
+    kerrscope bench --fit --threads 2"
 )]
 pub struct Arguments {
     /// Only this engine: closed-form, integrator, components or text
@@ -31,6 +35,9 @@ pub struct Arguments {
     /// Only these vector instructions: baseline, avx2 or avx512
     #[arg(long, value_name = "LEVEL", value_parser = crate::parse_level)]
     simd: Option<Level>,
+    /// Time a likelihood and a whole fit instead
+    #[arg(long, conflicts_with_all = ["engine", "simd", "thin"])]
+    fit: bool,
     /// Threads to use
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1024))]
     threads: u32,
@@ -43,6 +50,10 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.fit {
+        let found = fits::measure(arguments.threads)?;
+        return if arguments.format == Format::Json { print_json(&found) } else { print(&found.to_string()) };
+    }
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(arguments.threads as usize)
         .build()

@@ -32,6 +32,9 @@ const STEPS: usize = 30;
 /// Newton's last step, as a share of ρ, per image order: each is e^π times thinner than the one before.
 const CLOSE: [f64; ORDERS] = [1e-4, 5e-6, 2e-7, 1e-8];
 
+/// The step after which one more is enough: its square, by the width of the order, is smaller than that.
+const NEAR: [f64; ORDERS] = [5e-3, 2e-4, 1e-5, 5e-7];
+
 /// A hole, an observer at or above its plane, and how finely it is looked at.
 #[derive(Clone, Copy, Debug)]
 pub struct View {
@@ -103,6 +106,7 @@ struct Walk {
 }
 
 /// Where a node is looked for.
+#[derive(Clone, Copy)]
 struct Try {
     direction: usize,
     rho: f64,
@@ -110,7 +114,7 @@ struct Try {
     done: bool,
 }
 
-/// Solves for the image of an order: `edges` are x_in and, for each direction, x_out.
+/// Solves for the image of an order: `edges` are x_in and, for each direction, x_out. How it moves is found if asked for, else 0.
 ///
 /// # Errors
 /// If some light does not come from where it should.
@@ -118,8 +122,8 @@ pub fn solve(
     view: &View,
     landings: &Landings,
     order: usize,
-    inner: f64,
-    outer: &[f64],
+    (inner, outer): (f64, &[f64]),
+    derivatives: bool,
 ) -> Result<Nodes, NotFound> {
     let directions = outer.len();
     let chi = |j: usize| 2.0 * PI * j as f64 / directions as f64;
@@ -136,7 +140,16 @@ pub fn solve(
     // From a node in the middle, where its place is looked for without knowing anything, to both ends.
     let first = NODES / 3;
     let begin = beginnings(view, order, &walks, &angles, node(first))?;
-    let mut solver = Solver { view, landings, order, found: Vec::new(), rays: Vec::new() };
+    let mut solver = Solver {
+        view,
+        landings,
+        order,
+        derivatives,
+        rays: Vec::new(),
+        polar: Vec::new(),
+        slopes: Vec::new(),
+        found: Vec::new(),
+    };
     let start: Vec<f64> = begin;
     solver.step(&mut walks, &mut nodes, first, &start)?;
     let kept: Vec<[f64; 3]> = walks.iter().map(|walk| walk.known[0]).collect();
@@ -209,7 +222,10 @@ struct Solver<'a> {
     view: &'a View,
     landings: &'a Landings,
     order: usize,
+    derivatives: bool,
     rays: Vec<[f64; 2]>,
+    polar: Vec<[f64; 2]>,
+    slopes: Vec<[f64; 2]>,
     found: Vec<Landing>,
 }
 
@@ -223,7 +239,6 @@ impl Solver<'_> {
         guess: &[f64],
     ) -> Result<(), NotFound> {
         let t = node(k);
-        let (center, moved) = self.view.center();
         let mut tries: Vec<Try> = walks
             .iter()
             .zip(guess)
@@ -235,54 +250,125 @@ impl Solver<'_> {
                 done: false,
             })
             .collect();
+        let near = self.approach(walks, &mut tries)?;
+        if self.derivatives {
+            return self.finish(walks, nodes, k, near);
+        }
+        for (tried, slope) in near {
+            self.keep(walks, nodes, k, &tried, slope, [0.0; HOLE]);
+        }
+        Ok(())
+    }
+
+    fn look(&mut self, walks: &[Walk], tries: &[Try]) {
+        let (center, _) = self.view.center();
+        self.polar.clear();
+        self.polar.extend(tries.iter().map(|t| walks[t.direction].polar));
+        self.rays.clear();
+        self.rays
+            .extend(tries.iter().zip(&self.polar).map(|(t, [cos, sin])| [center + t.rho * cos, t.rho * sin]));
+    }
+
+    fn hole(&self) -> [f64; 3] {
+        [self.view.spin, self.view.inclination, self.view.u]
+    }
+
+    /// Newton's method with the slope along ρ alone, until the next step with all derivatives is the last one, or to the end if there
+    /// is none. Gives all tries with their slopes.
+    fn approach(&mut self, walks: &[Walk], tries: &mut Vec<Try>) -> Result<Vec<(Try, f64)>, NotFound> {
+        let close = if self.derivatives { NEAR[self.order] } else { CLOSE[self.order] };
+        let mut near = Vec::with_capacity(tries.len());
         for _ in 0..STEPS {
-            self.rays.clear();
-            self.rays.extend(tries.iter().map(|t| {
-                let [cos, sin] = walks[t.direction].polar;
-                [center + t.rho * cos, t.rho * sin]
-            }));
-            self.found.resize(self.rays.len(), Landing::default());
-            let hole = [self.view.spin, self.view.inclination, self.view.u];
-            self.landings.find(hole, self.order, &self.rays, &mut self.found);
-            for (tried, landing) in tries.iter_mut().zip(&self.found) {
-                let walk = &mut walks[tried.direction];
-                let [cos, sin] = walk.polar;
-                let g = &landing.gradient;
-                let slope = g[2] * cos + g[3] * sin;
-                if !(landing.u + slope).is_finite() {
-                    return Err(NotFound);
-                }
-                // u falls outwards. x = √u is closer to a straight line, where there is one.
-                let target = tried.x * tried.x;
-                let step = if landing.u > 0.0 {
-                    (landing.u.sqrt() - tried.x) * 2.0 * landing.u.sqrt() / slope
-                } else {
-                    (landing.u - target) / slope
-                };
-                let bounded = step.clamp(-0.3 * tried.rho, 0.3 * tried.rho);
-                tried.rho -= bounded;
-                tried.done = bounded.abs() < CLOSE[self.order] * tried.rho && slope < 0.0;
+            self.look(walks, tries);
+            self.slopes.resize(self.rays.len(), [0.0; 2]);
+            self.landings.along(self.hole(), self.order, &self.rays, &self.polar, &mut self.slopes);
+            for (tried, [u, slope]) in tries.iter_mut().zip(&self.slopes) {
+                tried.newton(*u, *slope, close)?;
                 if tried.done {
-                    // The rest is of second order in the step.
-                    let s = scale(self.order, tried.x);
-                    let chi = 2.0 * PI * tried.direction as f64 / nodes.directions as f64;
-                    let value = &mut nodes.values[tried.direction * NODES + k];
-                    value[0] = self.view.weight(chi) / (tried.rho * s).powi(2);
-                    for p in 0..HOLE {
-                        let own = if p == 2 { g[4] } else { g[p] };
-                        value[1 + p] = -(own + g[2] * moved[p]) / slope / tried.rho;
-                    }
-                    let rate = 2.0 * tried.x / slope;
-                    walk.known = [[tried.x, tried.rho, rate], walk.known[0]];
-                    walk.count += 1;
+                    near.push((*tried, *slope));
                 }
             }
+            tries.retain(|t| !t.done);
+            if tries.is_empty() {
+                return Ok(near);
+            }
+        }
+        Err(NotFound)
+    }
+
+    /// Newton's last steps, with what the place changes by.
+    fn finish(
+        &mut self,
+        walks: &mut [Walk],
+        nodes: &mut Nodes,
+        k: usize,
+        near: Vec<(Try, f64)>,
+    ) -> Result<(), NotFound> {
+        let (_, moved) = self.view.center();
+        let mut tries: Vec<Try> = near.into_iter().map(|(tried, _)| Try { done: false, ..tried }).collect();
+        for _ in 0..STEPS {
+            self.look(walks, &tries);
+            self.found.resize(self.rays.len(), Landing::default());
+            self.landings.find(self.hole(), self.order, &self.rays, &mut self.found);
+            let found = std::mem::take(&mut self.found);
+            for (tried, landing) in tries.iter_mut().zip(&found) {
+                let [cos, sin] = walks[tried.direction].polar;
+                let g = &landing.gradient;
+                let slope = g[2] * cos + g[3] * sin;
+                tried.newton(landing.u, slope, CLOSE[self.order])?;
+                if tried.done {
+                    // The rest is of second order in the step.
+                    let own = [g[0], g[1], g[4]];
+                    let rate = |p: usize| -(own[p] + g[2] * moved[p]) / slope / tried.rho;
+                    self.keep(walks, nodes, k, tried, slope, std::array::from_fn(rate));
+                }
+            }
+            self.found = found;
             tries.retain(|t| !t.done);
             if tries.is_empty() {
                 return Ok(());
             }
         }
         Err(NotFound)
+    }
+
+    /// Keeps a node that was found, and its derivatives ∂ln ρ/∂p.
+    fn keep(
+        &self,
+        walks: &mut [Walk],
+        nodes: &mut Nodes,
+        k: usize,
+        tried: &Try,
+        slope: f64,
+        rates: [f64; HOLE],
+    ) {
+        let s = scale(self.order, tried.x);
+        let chi = 2.0 * PI * tried.direction as f64 / nodes.directions as f64;
+        let value = &mut nodes.values[tried.direction * NODES + k];
+        value[0] = self.view.weight(chi) / (tried.rho * s).powi(2);
+        value[1..].copy_from_slice(&rates);
+        let walk = &mut walks[tried.direction];
+        walk.known = [[tried.x, tried.rho, 2.0 * tried.x / slope], walk.known[0]];
+        walk.count += 1;
+    }
+}
+
+impl Try {
+    /// A step of Newton's method, and whether it was so small a share of ρ that it is the last.
+    fn newton(&mut self, u: f64, slope: f64, close: f64) -> Result<(), NotFound> {
+        if !(u + slope).is_finite() {
+            return Err(NotFound);
+        }
+        // u falls outwards. x = √u is closer to a straight line, where there is one.
+        let step = if u > 0.0 {
+            (u.sqrt() - self.x) * 2.0 * u.sqrt() / slope
+        } else {
+            (u - self.x * self.x) / slope
+        };
+        let bounded = step.clamp(-0.3 * self.rho, 0.3 * self.rho);
+        self.rho -= bounded;
+        self.done = bounded.abs() < close * self.rho && slope < 0.0;
+        Ok(())
     }
 }
 

@@ -154,7 +154,7 @@ impl Painter {
         let matter = Matter::new(setting.spin, setting.profile, ends);
         let mut images = Vec::new();
         for order in 0..self.fineness.orders.min(ORDERS) {
-            images.push(self.image(&view, order, inner, &|chi| outer(order, chi))?);
+            images.push(self.image(&view, order, (inner, &|chi| outer(order, chi)), derivatives)?);
         }
         let sketch = Sketch { above, setting, view: &view, screen: &screen, matter: &matter, derivatives };
         let size = setting.frame.size;
@@ -180,8 +180,8 @@ impl Painter {
         &self,
         view: &View,
         order: usize,
-        inner: f64,
-        outer: &impl Fn(f64) -> f64,
+        (inner, outer): (f64, &impl Fn(f64) -> f64),
+        derivatives: bool,
     ) -> Result<Lines, Unseen> {
         let mut first = if view.inclination.cos() > 0.5 { 1 } else { 2 };
         if view.inclination.cos() < 0.2 {
@@ -190,7 +190,7 @@ impl Painter {
         for (choice, directions) in DIRECTIONS.into_iter().enumerate().skip(first) {
             let ends: Vec<f64> =
                 (0..directions).map(|j| outer(2.0 * PI * j as f64 / directions as f64)).collect();
-            let nodes = solve(view, &self.landings, order, inner, &ends)?;
+            let nodes = solve(view, &self.landings, order, (inner, &ends), derivatives)?;
             if choice + 1 < DIRECTIONS.len() && nodes.tail() > CONVERGED {
                 continue;
             }

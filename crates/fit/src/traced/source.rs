@@ -101,7 +101,14 @@ impl Source for Disk {
                 free(Prior::Uniform(-1e4, 1e4)),
             ),
             parameter("center_y", "px", "the same, up", [-1e4, 1e4], free(Prior::Uniform(-1e4, 1e4))),
-            parameter("distance", "M", "r of the observer", [20.0, f64::INFINITY], Freedom::Fixed(1000.0)),
+            // Not known unless it is given: to where pictures no longer change with it.
+            parameter(
+                "distance",
+                "M",
+                "r of the observer",
+                [20.0, f64::INFINITY],
+                free(Prior::LogUniform(40.0, 1e4)),
+            ),
             parameter(
                 "inner",
                 "r_ISCO",

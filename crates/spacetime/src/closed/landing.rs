@@ -57,6 +57,24 @@ impl Landings {
         assert_eq!(rays.len(), found.len(), "a landing for each ray");
         self.level.run(Batch { tables: &self.tables, hole, order, rays, found });
     }
+
+    /// The same landings with one derivative alone, with respect to a step of (α, β): 1/r and ∂(1/r)/∂step. It takes a third of the
+    /// time.
+    ///
+    /// # Panics
+    /// If there is not a step and a place for each ray.
+    pub fn along(
+        &self,
+        hole: [f64; 3],
+        order: usize,
+        rays: &[[f64; 2]],
+        steps: &[[f64; 2]],
+        found: &mut [[f64; 2]],
+    ) {
+        assert_eq!(rays.len(), found.len(), "a landing for each ray");
+        assert_eq!(rays.len(), steps.len(), "a step for each ray");
+        self.level.run(Along { tables: &self.tables, hole, order, rays, steps, found });
+    }
 }
 
 struct Batch<'a> {
@@ -67,6 +85,60 @@ struct Batch<'a> {
     found: &'a mut [Landing],
 }
 
+struct Along<'a> {
+    tables: &'a Tables,
+    hole: [f64; 3],
+    order: usize,
+    rays: &'a [[f64; 2]],
+    steps: &'a [[f64; 2]],
+    found: &'a mut [[f64; 2]],
+}
+
+/// α and β on lanes; those beyond the last ray follow the first again.
+#[inline(always)]
+fn on_lanes(pairs: &[[f64; 2]]) -> [[f64; WIDTH]; 2] {
+    let (mut first, mut second) = ([0.0; WIDTH], [0.0; WIDTH]);
+    for lane in 0..WIDTH {
+        [first[lane], second[lane]] = pairs[if lane < pairs.len() { lane } else { 0 }];
+    }
+    [first, second]
+}
+
+impl OnLanes for Along<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Simd>(self, simd: L) {
+        let [spin, inclination, u] = self.hole;
+        let both = self.rays.chunks(WIDTH).zip(self.steps.chunks(WIDTH));
+        for ((rays, steps), found) in both.zip(self.found.chunks_mut(WIDTH)) {
+            let (places, steps) = (on_lanes(rays), on_lanes(steps));
+            simd.vectorize(
+                #[inline(always)]
+                || {
+                    let fixed = |value: f64| Dual::<Lanes<L>, 1>::fixed(Lanes::new(simd, [value; WIDTH]));
+                    let moving = |k: usize| Dual {
+                        value: Lanes::new(simd, places[k]),
+                        gradient: [Lanes::new(simd, steps[k])],
+                    };
+                    let impact = Impact {
+                        spin: fixed(spin),
+                        inclination: fixed(inclination),
+                        alpha: moving(0),
+                        beta: moving(1),
+                        u: fixed(u),
+                    };
+                    let u = impact.inverse_radius(self.tables, self.order);
+                    let (values, slopes) = (u.value.to_array(), u.gradient[0].to_array());
+                    for (lane, landing) in found.iter_mut().enumerate() {
+                        *landing = [values[lane], slopes[lane]];
+                    }
+                },
+            );
+        }
+    }
+}
+
 impl OnLanes for Batch<'_> {
     type Output = ();
 
@@ -74,11 +146,7 @@ impl OnLanes for Batch<'_> {
     fn run<L: Simd>(self, simd: L) {
         let [spin, inclination, u] = self.hole;
         for (rays, found) in self.rays.chunks(WIDTH).zip(self.found.chunks_mut(WIDTH)) {
-            let (mut alpha, mut beta) = ([0.0; WIDTH], [0.0; WIDTH]);
-            for lane in 0..WIDTH {
-                // Lanes beyond the last ray follow the first again.
-                [alpha[lane], beta[lane]] = rays[if lane < rays.len() { lane } else { 0 }];
-            }
+            let [alpha, beta] = on_lanes(rays);
             simd.vectorize(
                 #[inline(always)]
                 || {
