@@ -1,7 +1,7 @@
 //! Regions of a picture that are darker or lighter than a level, and the curves around them.
 //!
 //! The curve is that at which the values, interpolated between the centres of pixels, have the level (marching squares). Where light and
-//! dark meet crosswise between four pixels, their mean says which of them are joined.
+//! dark meet crosswise between four pixels, what is in the region is not joined, as its pixels are not.
 
 use super::{Curve, Picture};
 
@@ -139,17 +139,9 @@ impl Grid<'_> {
         ];
         let inside = corners.map(|[x, y]| self.is_in(x, y));
         let from = sides.iter().position(|(crossing, _)| *crossing == at).unwrap_or(0);
-        // Clockwise it enters the region at `from` and leaves it further on: at the next side that is crossed if it keeps to one corner, at
-        // the last if the region goes on across the cell.
-        let leaves = |k: usize| inside[k % 4] && !inside[(k + 1) % 4];
-        let mut exits = (1..4).map(|k| from + k).filter(|k| leaves(*k));
-        let nearest = exits.next().unwrap_or(from + 1);
-        let farthest = exits.next().unwrap_or(nearest);
-        let joined = farthest != nearest && {
-            let sum: f64 = corners.iter().map(|[x, y]| self.excess(*x, *y).unwrap_or(f64::NEG_INFINITY)).sum();
-            sum > 0.0 || (self.side == Side::Dark && sum == 0.0)
-        };
-        sides[if joined { farthest } else { nearest } % 4]
+        // Clockwise it enters the region at `from`, and leaves it at the next side that is crossed.
+        let leaves = |k: &usize| inside[k % 4] && !inside[(k + 1) % 4];
+        sides[(from + 1..from + 4).find(leaves).unwrap_or(from + 1) % 4]
     }
 }
 
@@ -162,23 +154,16 @@ mod tests {
         Picture::of_values(rows[0].len(), rows.len(), values).unwrap()
     }
 
-    /// Crosswise pixels are joined as their mean says, on either side; the border is the other side.
+    /// Crosswise pixels are not joined, on either side; the border is the other side.
     #[test]
     fn saddles_and_borders() {
-        let low = picture(&["000000", "090000", "004000", "000000"]);
-        let high = picture(&["000000", "092000", "029000", "000000"]);
-        let area = |picture: &Picture, level| {
-            let all = regions(picture, level, Side::Light);
-            (all.len(), around(picture, level, Side::Light, &all[0]).area())
-        };
-        // Alone: a diamond with the half diagonals 1 − 3/9. The mean of 0, 0, 4 and 9 is above 3.
-        let (count, joined) = area(&low, 3.0);
-        assert_eq!(count, 2);
-        let (_, alone) = area(&low, 3.9);
+        let cross = picture(&["000000", "090000", "004000", "000000"]);
+        let all = regions(&cross, 3.9, Side::Light);
+        // A diamond with the half diagonals 1 − 3.9/9.
         let half = 1.0 - 3.9 / 9.0;
-        assert!((alone / (2.0 * half * half) - 1.0).abs() < 0.3, "{alone}");
-        assert!(joined > alone);
-        assert!(area(&high, 4.0).1 > 2.0 * 2.0 * (5.0_f64 / 9.0).powi(2));
+        assert_eq!(all.len(), 2);
+        let area = around(&cross, 3.9, Side::Light, &all[0]).polygon_area();
+        assert!((area - 2.0 * half * half).abs() < 1e-12, "{area}");
         let touching = picture(&["99", "00"]);
         let all = regions(&touching, 4.5, Side::Light);
         assert!(all[0].open && all[0].pixels == 2);

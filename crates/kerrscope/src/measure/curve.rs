@@ -37,6 +37,11 @@ impl Curve {
         PI * self.mean(self.centroid(), |r| r * r)
     }
 
+    /// The area of the polygon of its points, for curves of few points.
+    pub fn polygon_area(&self) -> f64 {
+        signed_area(&self.points)
+    }
+
     /// Centre of the area within.
     pub fn centroid(&self) -> [f64; 2] {
         // From a point of the curve, so that nothing cancels far from the middle.

@@ -119,7 +119,9 @@ impl Follower {
         } else {
             self.light(&camera.ray(pixel[0], pixel[1]).ok()?)
         };
-        let mut y = [x[0], x[1], x[2], velocity[1], velocity[2], velocity[3], velocity[0]];
+        // A camera in the disk's plane is not above it by a rounding error.
+        let height = if x[2].abs() < 1e-9 { 0.0 } else { x[2] };
+        let mut y = [x[0], x[1], height, velocity[1], velocity[2], velocity[3], velocity[0]];
         let flow = Accelerated { metric: self.metric };
         let mut slope = flow.derivative(&y);
         let far = 2.0 * dot(&x, &x).sqrt();

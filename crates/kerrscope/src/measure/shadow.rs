@@ -15,8 +15,7 @@
 //! - if its outline has dents: shadows and the inner edges of disks, seen from any side, have none to speak of (their area is 97 % of
 //!   their hull's and more);
 //! - if it is no darker than the sky, where the sky is not black;
-//! - if the outline moves by a tenth of the diameter with a tenth of the level: so do hollows between blobs of light, and rings only when they
-//!   are blurred until hardly any dark is left.
+//! - if the outline moves too far with a tenth of the level: hollows between blobs of light do, and are not round; blurred rings do, and are.
 
 use std::f64::consts::PI;
 
@@ -45,8 +44,10 @@ const SOLID: f64 = 0.93;
 /// The sky is not black if it is so many times the noise, and this part of the light, above the darkest hundredth of the pixels.
 const SKY_NOISE: f64 = 4.0;
 const SKY_SHARE: f64 = 0.02;
-/// The share of the diameter by which the outline may depend on the level.
-const VAGUE: f64 = 0.1;
+/// The share of its radius by which an outline may move with a tenth of the level: one that is round, and any other.
+const VAGUE: [f64; 2] = [0.15, 0.04];
+/// Round is what has no larger circularity.
+const ROUND: f64 = 0.1;
 
 /// Levels of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -192,7 +193,7 @@ impl Shadow {
             };
             (high - low).abs().max(outline.scatter())
         };
-        if single > VAGUE * mean {
+        if single > VAGUE[usize::from(spread > ROUND * mean)] * mean {
             return Err(format!(
                 "the dark region that is enclosed has no certain outline: it moves by {single:.1} pixels with a tenth of what is called dark, for \
                  a radius of {mean:.1}"
@@ -315,6 +316,6 @@ fn enclosed(picture: &Picture, level: f64) -> Vec<Region> {
     found.retain(|region| !region.open && region.pixels >= SMALLEST);
     found.sort_by_key(|region| std::cmp::Reverse(region.pixels));
     found.truncate(8);
-    found.retain(|region| region.pixels as f64 > DARK * around(picture, level, Side::Dark, region).area());
+    found.retain(|region| region.pixels as f64 > DARK * around(picture, level, Side::Dark, region).polygon_area());
     found
 }

@@ -15,8 +15,8 @@ const AROUND: usize = 180;
 /// How far off the disk's plane rays to the left and right start, radians of the direction in the picture.
 const OFF_PLANE: f64 = 1e-6;
 
-/// Light within the dark counts if it is this many steps wide.
-const STRAY: i32 = 5;
+/// A disk's image ends within so many fiftieths of its radius, as a rule.
+const WITHIN: i32 = 80;
 
 /// Single rays of a picture.
 pub(super) struct Sight {
@@ -86,22 +86,15 @@ impl Sight {
         }
     }
 
-    /// How far from a centre no light of order 0 comes, but for stray light in arcs narrower than a tenth of the disk's radius.
+    /// How far from a centre no light of order 0 comes from within the disk's radius: what is met first on the way in from the disk's edge, so
+    /// that stray light of inexact rays within the dark does not count.
     fn dark_until(&self, centre: [f64; 2], angle: f64) -> Option<f64> {
-        let dark = |distance: f64| self.radius(centre, angle, distance).is_none();
+        let lit = |distance: f64| self.radius(centre, angle, distance).is_some_and(|r| r <= self.edge);
         let step = 0.02 * self.unit;
-        let (mut first, mut lit) = (1, 0);
-        for k in 1..200 {
-            if dark(f64::from(k) * step) {
-                (first, lit) = (k + 1, 0);
-            } else {
-                lit += 1;
-                if lit == STRAY {
-                    return Some(self.bisected(f64::from(first - 1) * step, f64::from(first) * step, dark));
-                }
-            }
-        }
-        None
+        let at = |k: &i32| lit(f64::from(*k) * step);
+        let edge = if at(&WITHIN) { (WITHIN..5 * WITHIN).rev().find(at) } else { (1..WITHIN).rev().find(at) }?;
+        let dark = (1..edge).rev().find(|k| !at(k))?;
+        Some(self.bisected(f64::from(dark) * step, f64::from(dark + 1) * step, |distance| !lit(distance)))
     }
 
     /// How far from a centre light of order 0 comes from within the disk's radius.
