@@ -74,9 +74,13 @@ const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
 pub fn draw(_root: &Path, names: &[&str]) -> Result<(), String> {
     let is_called = |picture: &str, name: &str| {
         let path = Path::new(picture);
-        path == Path::new(name) || path.file_name() == Some(name.as_ref()) || path.file_stem() == Some(name.as_ref())
+        path == Path::new(name)
+            || path.file_name() == Some(name.as_ref())
+            || path.file_stem() == Some(name.as_ref())
     };
-    if let Some(name) = names.iter().find(|name| !PICTURES.iter().any(|(.., picture)| is_called(picture, name))) {
+    if let Some(name) =
+        names.iter().find(|name| !PICTURES.iter().any(|(.., picture)| is_called(picture, name)))
+    {
         let known: Vec<&str> = PICTURES.iter().map(|(.., picture)| *picture).collect();
         return Err(format!("no picture is called {name}; there are {}", known.join(", ")));
     }

@@ -201,21 +201,26 @@ fn report(series: Series, output: &Output) -> String {
 
 /// The table in the thesis's manner, and what each of its parts explains.
 fn repeated(name: &str, output: &Output) -> Vec<String> {
-    let (Some(fit), Some(thesis_fit), Some(last)) = (output.fit, output.thesis_fit, output.as_thesis.last()) else {
+    let (Some(fit), Some(thesis_fit), Some(last)) = (output.fit, output.thesis_fit, output.as_thesis.last())
+    else {
         return Vec::new();
     };
-    let mut lines = vec![String::new(), "in the thesis's manner, its parts added one after another".to_owned()];
+    let mut lines =
+        vec![String::new(), "in the thesis's manner, its parts added one after another".to_owned()];
     let heads: Vec<String> = output.rows.iter().map(|row| format!("{:>8.3}", row.parameter)).collect();
     lines.push(format!("{:<34} | {} |    slope  explains  rms off", name, heads.join(" ")));
     let row = |words: &str, ratios: Vec<Option<f64>>, rest: String| {
-        let cell = |ratio: Option<f64>| ratio.map_or_else(|| format!("{:>8}", "-"), |ratio| format!("{ratio:>8.4}"));
+        let cell =
+            |ratio: Option<f64>| ratio.map_or_else(|| format!("{:>8}", "-"), |ratio| format!("{ratio:>8.4}"));
         format!("{words:<34} | {} | {rest}", ratios.into_iter().map(cell).collect::<Vec<_>>().join(" "))
     };
     let slope = |fit: Fit| format!("{:>8.5}", fit.slope);
     lines.push(row("exact", output.rows.iter().map(|r| Some(r.ratio)).collect(), slope(fit)));
     for repeat in &output.as_thesis {
         let fit = repeat.fit.map_or_else(|| format!("{:>8}", "-"), slope);
-        let share = repeat.explains.map_or_else(|| format!("{:>8}", "-"), |share| format!("{:>6.1} %", 100.0 * share));
+        let share = repeat
+            .explains
+            .map_or_else(|| format!("{:>8}", "-"), |share| format!("{:>6.1} %", 100.0 * share));
         let off = repeat.off.map_or_else(|| "-".to_owned(), |off| format!("{off:.4}"));
         let words = format!("+ {}", repeat.adds.words());
         lines.push(row(&words, repeat.ratios.clone(), format!("{fit}  {share}  {off:>7}")));

@@ -32,15 +32,21 @@ fn a_picture_of_our_own() {
 /// Light that is 255 where a point of the unit square is lit.
 fn draw(path: &Path, size: u32, is_lit: impl Fn(f64, f64) -> bool) {
     let at = |k: u32| (f64::from(k) + 0.5) / f64::from(size);
-    let pixels: Vec<u8> = (0..size * size).map(|k| if is_lit(at(k % size), at(k / size)) { 255 } else { 0 }).collect();
+    let pixels: Vec<u8> =
+        (0..size * size).map(|k| if is_lit(at(k % size), at(k / size)) { 255 } else { 0 }).collect();
     image::save_buffer(path, &pixels, size, size, image::ColorType::L8).unwrap();
 }
 
 /// A FITS file of 16 × 16 numbers.
 fn fits(path: &Path, values: &[f64]) {
-    let cards = ["SIMPLE  =                    T", "BITPIX  =                  -64", "NAXIS   =                    2"];
+    let cards = [
+        "SIMPLE  =                    T",
+        "BITPIX  =                  -64",
+        "NAXIS   =                    2",
+    ];
     let sizes = ["NAXIS1  =                   16", "NAXIS2  =                   16", "END"];
-    let mut bytes: Vec<u8> = cards.iter().chain(&sizes).flat_map(|card| format!("{card:<80}").into_bytes()).collect();
+    let mut bytes: Vec<u8> =
+        cards.iter().chain(&sizes).flat_map(|card| format!("{card:<80}").into_bytes()).collect();
     bytes.resize(2880, b' ');
     bytes.extend(values.iter().flat_map(|value| value.to_be_bytes()));
     bytes.resize(5760, 0);
@@ -98,13 +104,12 @@ fn pictures_of_other_things() {
     draw(&folder.path().join("dot.png"), 96, |x, y| disk(x, y, [0.5, 0.5, 0.2]));
     draw(&folder.path().join("two.png"), 2, |x, _| x < 0.5);
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/");
-    let small = ["--set", "render.width=160", "--set", "render.height=90", "--set", "render.samples=4", "--quiet"];
-    for name in ["two-holes", "earth"] {
-        let (scene, picture) = (format!("{scenes}{name}.toml"), format!("{name}.png"));
-        let output = run(folder.path(), &[&["render", &scene, "-o", &picture][..], &small].concat());
-        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    }
-    for name in ["cat", "stripes", "dot", "two", "two-holes", "earth"] {
+    let small =
+        ["--set", "render.width=160", "--set", "render.height=90", "--set", "render.samples=4", "--quiet"];
+    let scene = format!("{scenes}two-holes.toml");
+    let output = run(folder.path(), &[&["render", &scene, "-o", "two-holes.png"][..], &small].concat());
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    for name in ["cat", "stripes", "dot", "two", "two-holes"] {
         let found = json(folder.path(), &["measure", &format!("{name}.png"), "--format", "json"]);
         for feature in ["shadow", "ring", "disk"] {
             let reason = found[feature]["not_found"].as_str();
@@ -122,8 +127,10 @@ fn as_the_thesis() {
     let folder = tempfile::tempdir().unwrap();
     let rows = json(folder.path(), &["thesis", "spins", "--exact", "--step", "1.5", "--format", "json"]);
     assert_eq!(rows["rows"].as_array().unwrap().len(), 7);
-    let found =
-        json(folder.path(), &["thesis", "inclinations", "--exact", "--as-thesis=step,chords", "--format", "json"]);
+    let found = json(
+        folder.path(),
+        &["thesis", "inclinations", "--exact", "--as-thesis=step,chords", "--format", "json"],
+    );
     let repeats = found["as_thesis"].as_array().unwrap();
     assert_eq!((repeats.len(), &repeats[1]["adds"]), (2, &serde_json::json!("chords")));
     assert!(repeats[1]["explains"].is_f64() && repeats[1]["off"].is_f64());

@@ -10,6 +10,10 @@ const UNEXPLAINED: f64 = 0.05;
 /// Residuals this many times the pixels' own noise, and this large a share of the brightest, are the model's fault.
 const LARGE: (f64, f64) = (1.5, 0.02);
 
+/// What is seen at all makes the residuals' variance v of n pixels less than the picture's V: −2 Δ ln L = n ln(V/v). In noise alone each
+/// parameter finds about 1 of it, and the best of many places more: this for each, and this for all.
+const SEEN: (f64, f64) = (4.0, 30.0);
+
 /// A posterior nearly as wide as its prior says nothing.
 const WIDE: f64 = 0.8;
 
@@ -44,6 +48,17 @@ pub fn judge(
             100.0 * beyond / variance,
             fit.chi2,
             fit.degrees,
+        ));
+    }
+    let found = n * (variance / left.max(f64::MIN_POSITIVE)).ln();
+    let least = SEEN.0 * fit.free.len() as f64 + SEEN.1;
+    if !(found > least) {
+        fit.good = false;
+        warnings.push(format!(
+            "poor fit: the model explains {:.1} % of the picture's variance, no more than its {} free parameters may find in noise \
+             (n ln(V/v) is {found:.0}, and has to be above {least:.0}). Nothing like the model is seen: do not use its numbers",
+            100.0 * fit.explained,
+            fit.free.len(),
         ));
     }
     if !fit.converged {

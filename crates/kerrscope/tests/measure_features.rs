@@ -189,8 +189,11 @@ fn in_triangle([x, y]: [f64; 2], corners: [[f64; 2]; 3]) -> bool {
 fn is_cat(x: f64, y: f64, more: f64) -> bool {
     let ear = |side: f64| {
         let corner = |x: f64, y: f64| [side * x, y];
-        let (tip, out, within) =
-            (corner(34.0 + more, 44.0 + 1.6 * more), corner(34.0 + more, 2.0 - more), corner(4.0 - more, 20.0));
+        let (tip, out, within) = (
+            corner(34.0 + more, 44.0 + 1.6 * more),
+            corner(34.0 + more, 2.0 - more),
+            corner(4.0 - more, 20.0),
+        );
         in_triangle([x, y], if side > 0.0 { [tip, within, out] } else { [tip, out, within] })
     };
     (x / (38.0 + more)).hypot((y + 8.0) / (34.0 + more)) < 1.0 || ear(1.0) || ear(-1.0)
@@ -212,12 +215,18 @@ fn what_is_no_hole() {
             box_averaged(128, |x, y| lit(ring(x + 25.0, y, 24.0) || ring(x - 35.0, y, 12.0))),
             "two rings of light",
         ),
-        ("stripes", box_averaged(128, |x, _| lit((x / 6.0).floor().rem_euclid(2.0) < 0.5)), "no brighter inside"),
+        (
+            "stripes",
+            box_averaged(128, |x, _| lit((x / 6.0).floor().rem_euclid(2.0) < 0.5)),
+            "no brighter inside",
+        ),
         ("a hill", box_averaged(128, |x, y| (1.0 - x.hypot(y) / 64.0).max(0.0)), "no dark region"),
     ];
     for (name, picture, reason) in pictures {
         let features = Features::of(&picture);
-        let kerrscope::measure::Feature::NotFound(why) = &features.shadow else { panic!("{name} has a shadow") };
+        let kerrscope::measure::Feature::NotFound(why) = &features.shadow else {
+            panic!("{name} has a shadow")
+        };
         assert!(why.contains(reason), "{name}: {why}");
         assert!(features.ring.found().is_none() && features.disk.found().is_none(), "{name}");
     }
@@ -229,7 +238,9 @@ fn what_is_no_hole() {
         ("thesis-4.5.png", "border"),
     ] {
         let features = Features::of(&Picture::open(scenes.join(name)).unwrap());
-        let kerrscope::measure::Feature::NotFound(why) = &features.shadow else { panic!("{name} has a shadow") };
+        let kerrscope::measure::Feature::NotFound(why) = &features.shadow else {
+            panic!("{name} has a shadow")
+        };
         assert!(why.contains(reason), "{name}: {why}");
         assert!(features.ring.found().is_none() && features.disk.found().is_none(), "{name}");
     }
@@ -251,12 +262,18 @@ fn blobs() {
             let (x, y) = ((k % 96) as f64 - 47.5, 47.5 - (k / 96) as f64);
             let light: f64 = blobs
                 .iter()
-                .map(|[bx, by, width, peak]| peak * (-0.5 * ((x - bx).powi(2) + (y - by).powi(2)) / (width * width)).exp())
+                .map(|[bx, by, width, peak]| {
+                    peak * (-0.5 * ((x - bx).powi(2) + (y - by).powi(2)) / (width * width)).exp()
+                })
                 .sum();
             light * (-(x.hypot(y) / 29.0).powi(6)).exp()
         };
         let features = Features::of(&Picture::of_values(96, 96, (0..96 * 96).map(value).collect()).unwrap());
-        assert!(features.shadow.found().is_none(), "{picture}: {:?}", features.shadow.found().map(|s| (s.diameter, s.level)));
+        assert!(
+            features.shadow.found().is_none(),
+            "{picture}: {:?}",
+            features.shadow.found().map(|s| (s.diameter, s.level))
+        );
         assert!(features.ring.found().is_none() && features.disk.found().is_none(), "{picture}");
     }
 }

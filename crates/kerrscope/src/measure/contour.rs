@@ -170,7 +170,10 @@ mod tests {
         let curve = around(&touching, 4.5, Side::Light, &all[0]);
         assert!(curve.encloses([0.0, 0.5]) && !curve.encloses([0.0, -0.5]));
         let dark = regions(&touching, 4.5, Side::Dark);
-        assert!((dark.len(), dark[0].first) == (1, 2) && !around(&touching, 4.5, Side::Dark, &dark[0]).encloses([0.0, 0.4]));
+        assert!(
+            (dark.len(), dark[0].first) == (1, 2)
+                && !around(&touching, 4.5, Side::Dark, &dark[0]).encloses([0.0, 0.4])
+        );
     }
 
     /// Each region's curve encloses it, and its area is about the number of its pixels.

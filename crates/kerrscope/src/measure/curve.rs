@@ -224,14 +224,20 @@ mod tests {
         ];
         assert!((curve.area() / (sum * cell * cell) - 1.0).abs() < 1e-3, "{}", curve.area());
         let found = curve.centroid();
-        assert!((found[0] - centre[0]).abs() < 0.01 && (found[1] - centre[1]).abs() < 0.01, "{found:?} {centre:?}");
+        assert!(
+            (found[0] - centre[0]).abs() < 0.01 && (found[1] - centre[1]).abs() < 0.01,
+            "{found:?} {centre:?}"
+        );
         for (found, expected) in curve.second_moments().iter().zip(second) {
             assert!((found - expected).abs() < 0.3, "{found} {expected}");
         }
         assert!(curve.solidity() < 0.9 && curve.encloses([30.0, 0.0]) && !curve.encloses([-30.0, 0.0]));
         assert!((curve.reach([0.0, 0.0], 0.0).unwrap() - 40.5).abs() < 1e-3);
         let spaced = curve.spaced(0.5);
-        assert!((spaced.area() / curve.area() - 1.0).abs() < 1e-3 && (spaced.length() / curve.length() - 1.0).abs() < 1e-3);
+        assert!(
+            (spaced.area() / curve.area() - 1.0).abs() < 1e-3
+                && (spaced.length() / curve.length() - 1.0).abs() < 1e-3
+        );
         assert!(spaced.scatter() < 1e-2);
     }
 
@@ -239,7 +245,10 @@ mod tests {
     #[test]
     fn a_circle() {
         let curve = Curve::through(
-            (0..90).map(|k| (TAU * f64::from(k) / 90.0).sin_cos()).map(|(s, c)| [7.0 + 5.0 * c, s * 5.0 - 3.0]).collect(),
+            (0..90)
+                .map(|k| (TAU * f64::from(k) / 90.0).sin_cos())
+                .map(|(s, c)| [7.0 + 5.0 * c, s * 5.0 - 3.0])
+                .collect(),
         );
         assert!((curve.area() - 25.0 * PI).abs() < 1e-9 && (curve.solidity() - 1.0).abs() < 1e-12);
         let (mean, spread) = curve.mean_radius(curve.centroid());

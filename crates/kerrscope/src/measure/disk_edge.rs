@@ -11,6 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use serde::Serialize;
 
 use super::contour::{Region, Side, around, regions};
+use super::profile::Field;
 use super::rim::{EDGE_ERROR, Rim};
 use super::shadow::Levels;
 use super::{Curve, Measured, Picture, Shadow};
@@ -63,15 +64,22 @@ impl DiskEdge {
         }
         let rim = Rim::of(picture, (level, Side::Light, &region), 2.5, |[disk, sky]| sky < 0.5 * disk);
         let sharp = rim.is_sharp();
-        let outline = if sharp { rim.curve } else { around(picture, level, Side::Light, &region).spaced(0.75) };
+        let outline =
+            if sharp { rim.curve } else { around(picture, level, Side::Light, &region).spaced(0.75) };
         // A gradual edge is known as well as its outline stays when the level is doubled.
         let vague = if sharp { 0.0 } else { moved(picture, levels, level, shadow, &outline)? };
         if narrowest(&outline, &shadow.outline) < 2.0 {
             return Err("the light around the shadow is narrower than two pixels".to_owned());
         }
         let error = EDGE_ERROR.max(outline.scatter()).max(vague);
+        let field = Field::new(picture);
         let at = |angle: f64, k: usize| {
-            let radius = outline.reach(centre, angle).ok_or("an edge on an axis is missing")?;
+            let reach = outline.reach(centre, angle).ok_or("an edge on an axis is missing")?;
+            // Where an axis meets the edge at an angle, along it the place is the better one.
+            let edge = field
+                .edge(centre, angle, reach)
+                .filter(|e| sharp && e.sharp && (e.radius - reach).abs() < 0.5);
+            let radius = edge.map_or(reach, |e| e.radius);
             Ok::<_, String>(Measured::new(radius, error.hypot(shadow.centre[k].error)))
         };
         let (right, left) = (at(0.0, 0)?, at(PI, 0)?);

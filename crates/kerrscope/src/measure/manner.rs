@@ -150,7 +150,11 @@ impl Follower {
                     let (mut low, mut high) = (0.0, 1.0);
                     for _ in 0..60 {
                         let middle = 0.5 * (low + high);
-                        if (dense.component(2, middle) > 0.0) == (y[2] > 0.0) { low = middle } else { high = middle }
+                        if (dense.component(2, middle) > 0.0) == (y[2] > 0.0) {
+                            low = middle
+                        } else {
+                            high = middle
+                        }
                     }
                     let at = dense.at(0.5 * (low + high));
                     [at[0], at[1], at[2]]

@@ -149,7 +149,8 @@ impl Setting {
     /// # Errors
     /// When the setting is none that can be seen, in words.
     pub fn scene(&self) -> Result<Scene, String> {
-        let Self { spin, inclination, edge, distance, field, size: [width, height], samples, step, .. } = *self;
+        let Self { spin, inclination, edge, distance, field, size: [width, height], samples, step, .. } =
+            *self;
         let inner = horizons(spin).0 * (1.0 + 1e-6);
         let method = step.map_or_else(String::new, |step| {
             format!("engine = 'integrator'\nmethod = 'rk4'\nstep = {step:?}\nadaptive = false\n")
@@ -263,7 +264,8 @@ impl Series {
     /// The table in the thesis's manner, its parts added one after another, beside that of exact rays.
     pub fn repeats(self, exact: &[Reading], base: Setting, parts: &[Part]) -> Vec<Repeat> {
         let slope = |ratio: fn(&Reading) -> f64| {
-            Fit::of(&exact.iter().map(|row| [row.parameter, ratio(row)]).collect::<Vec<_>>()).map(|fit| fit.slope)
+            Fit::of(&exact.iter().map(|row| [row.parameter, ratio(row)]).collect::<Vec<_>>())
+                .map(|fit| fit.slope)
         };
         let (here, theirs) = (slope(|row| row.ratio), slope(|row| row.thesis_ratio));
         let repeat = |count: usize| {

@@ -138,11 +138,15 @@ impl Shadow {
     /// Looks for the shadow of a picture.
     pub(super) fn of(picture: &Picture, levels: Levels) -> Result<Self, String> {
         let fractions = std::iter::successors(Some(0.5), |f| Some(0.8 * f)).take_while(|f| *f > 0.02);
-        let found: Vec<(f64, Vec<Region>)> =
-            fractions.map(|f| (f, enclosed(picture, levels.at(f)))).filter(|(_, dark)| !dark.is_empty()).collect();
+        let found: Vec<(f64, Vec<Region>)> = fractions
+            .map(|f| (f, enclosed(picture, levels.at(f))))
+            .filter(|(_, dark)| !dark.is_empty())
+            .collect();
         let largest = found.iter().map(|(_, dark)| dark[0].pixels).max().unwrap_or(0);
         let mut reason = None;
-        for (fraction, dark) in found.iter().filter(|(_, dark)| dark[0].pixels as f64 > POCKET * largest as f64) {
+        for (fraction, dark) in
+            found.iter().filter(|(_, dark)| dark[0].pixels as f64 > POCKET * largest as f64)
+        {
             rivals(picture, levels.at(*fraction), dark)?;
             match Self::within(picture, &dark[0], *fraction, levels) {
                 Ok(shadow) => return Ok(shadow),
@@ -259,7 +263,9 @@ fn median_within(picture: &Picture, curve: &Curve) -> f64 {
                 let x = field.place(*column, row)[0];
                 cuts.iter().filter(|cut| **cut < x).count() % 2 == 1
             };
-            values.extend((0..picture.width).filter(inside).map(|column| picture.values[row * picture.width + column]));
+            values.extend(
+                (0..picture.width).filter(inside).map(|column| picture.values[row * picture.width + column]),
+            );
         }
     }
     let middle = values.len() / 2;
@@ -316,6 +322,8 @@ fn enclosed(picture: &Picture, level: f64) -> Vec<Region> {
     found.retain(|region| !region.open && region.pixels >= SMALLEST);
     found.sort_by_key(|region| std::cmp::Reverse(region.pixels));
     found.truncate(8);
-    found.retain(|region| region.pixels as f64 > DARK * around(picture, level, Side::Dark, region).polygon_area());
+    found.retain(|region| {
+        region.pixels as f64 > DARK * around(picture, level, Side::Dark, region).polygon_area()
+    });
     found
 }

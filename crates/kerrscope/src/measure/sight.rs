@@ -2,9 +2,9 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
+use super::Outline;
 use super::manner::Follower;
 use super::series::{Lengths, Setting};
-use super::Outline;
 use crate::camera::Camera;
 use crate::render::tracer;
 use crate::spacetime::Level;
@@ -42,7 +42,8 @@ impl Sight {
     pub fn new(setting: &Setting) -> Result<Self, String> {
         let scene = setting.scene()?;
         let place = [setting.distance, setting.inclination.to_radians()];
-        let followed = setting.manner.map(|manner| Rays::Followed(Follower::new(manner, setting.spin, place)));
+        let followed =
+            setting.manner.map(|manner| Rays::Followed(Follower::new(manner, setting.spin, place)));
         Ok(Self {
             camera: Camera::new(&scene).map_err(|e| e.to_string())?,
             close: if followed.is_some() { 1e-7 } else { 1e-11 },
@@ -92,7 +93,8 @@ impl Sight {
         let lit = |distance: f64| self.radius(centre, angle, distance).is_some_and(|r| r <= self.edge);
         let step = 0.02 * self.unit;
         let at = |k: &i32| lit(f64::from(*k) * step);
-        let edge = if at(&WITHIN) { (WITHIN..5 * WITHIN).rev().find(at) } else { (1..WITHIN).rev().find(at) }?;
+        let edge =
+            if at(&WITHIN) { (WITHIN..5 * WITHIN).rev().find(at) } else { (1..WITHIN).rev().find(at) }?;
         let dark = (1..edge).rev().find(|k| !at(k))?;
         Some(self.bisected(f64::from(dark) * step, f64::from(dark + 1) * step, |distance| !lit(distance)))
     }
