@@ -3,6 +3,8 @@
 //! The curve is that at which the values, interpolated between the centres of pixels, have the level (marching squares). Where light and
 //! dark meet crosswise between four pixels, what is in the region is not joined, as its pixels are not.
 
+#![expect(clippy::cast_possible_wrap, reason = "a picture has 16384 pixels along an edge at most")]
+
 use super::{Curve, Picture};
 
 /// Pixels on one side of a level that are joined by edges.
@@ -118,7 +120,7 @@ impl Grid<'_> {
         let here = self.excess(x, y);
         let there = if upright { self.excess(x, y + 1) } else { self.excess(x + 1, y) };
         let part = match (here, there) {
-            (Some(here), Some(there)) if here != there => here / (here - there),
+            (Some(here), Some(there)) if here - there != 0.0 => here / (here - there),
             _ => 0.5,
         };
         let (dx, dy) = if upright { (0.0, part) } else { (part, 0.0) };

@@ -30,6 +30,7 @@ const LONGEST: f64 = 1200.0;
 
 /// What of the thesis's manner is followed besides RK4 in place and velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a part that may be there or not")]
 pub struct Manner {
     /// The step of RK4, M.
     pub step: f64,

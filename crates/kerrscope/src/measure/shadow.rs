@@ -207,9 +207,10 @@ impl Shadow {
         let of_mean = if sharp { single / independent.sqrt() + 0.1 * EDGE_ERROR } else { single };
         let of_place = single / (0.5 * independent).sqrt() + 0.1 * EDGE_ERROR;
         let area = outline.area();
-        let brightness: Vec<[f64; 2]> = match sharp {
-            true => rim.levels.iter().map(|levels| levels.unwrap_or([0.0, level])).collect(),
-            false => vec![[0.0, level]; outline.points.len()],
+        let brightness: Vec<[f64; 2]> = if sharp {
+            rim.levels.iter().map(|levels| levels.unwrap_or([0.0, level])).collect()
+        } else {
+            vec![[0.0, level]; outline.points.len()]
         };
         let area_diameter = 2.0 * (missing(picture, &outline, &brightness) / PI).sqrt();
         Ok(Self {
@@ -273,6 +274,7 @@ fn median_within(picture: &Picture, curve: &Curve) -> f64 {
 }
 
 /// Sum over pixels of the light that is missing within an outline and at its edge, in units of the light around it.
+#[expect(clippy::cast_possible_wrap, reason = "a picture has 16384 pixels along an edge at most")]
 fn missing(picture: &Picture, outline: &Curve, levels: &[[f64; 2]]) -> f64 {
     let field = Field::new(picture);
     let Picture { width, height, values, .. } = picture;
