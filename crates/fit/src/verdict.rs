@@ -38,6 +38,8 @@ pub fn judge(
         left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
     let known = !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise");
     let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
+    let found = n * (variance / left.max(f64::MIN_POSITIVE)).ln();
+    let least = SEEN.0 * fit.free.len() as f64 + SEEN.1;
     if beyond > UNEXPLAINED * variance || excess || heavy {
         fit.good = false;
         warnings.push(format!(
@@ -49,10 +51,7 @@ pub fn judge(
             fit.chi2,
             fit.degrees,
         ));
-    }
-    let found = n * (variance / left.max(f64::MIN_POSITIVE)).ln();
-    let least = SEEN.0 * fit.free.len() as f64 + SEEN.1;
-    if !(found > least) {
+    } else if !(found > least) {
         fit.good = false;
         warnings.push(format!(
             "poor fit: the model explains {:.1} % of the picture's variance, no more than its {} free parameters may find in noise \
