@@ -152,9 +152,9 @@ impl Follower {
                     for _ in 0..60 {
                         let middle = 0.5 * (low + high);
                         if (dense.component(2, middle) > 0.0) == (y[2] > 0.0) {
-                            low = middle
+                            low = middle;
                         } else {
-                            high = middle
+                            high = middle;
                         }
                     }
                     let at = dense.at(0.5 * (low + high));
