@@ -38,8 +38,7 @@ pub fn judge(
         left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
     let known = !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise");
     let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
-    let found = n * (variance / left.max(f64::MIN_POSITIVE)).ln();
-    let least = SEEN.0 * fit.free.len() as f64 + SEEN.1;
+    let [found, least] = seen(n, variance, left, fit.free.len());
     if beyond > UNEXPLAINED * variance || excess || heavy {
         fit.good = false;
         warnings.push(format!(
@@ -124,6 +123,11 @@ pub fn judge(
     fit.warnings = warnings;
 }
 
+/// How much of what is there to see n pixels show, n ln(V/v), and how much it has to be.
+fn seen(n: f64, variance: f64, left: f64, free: usize) -> [f64; 2] {
+    [n * (variance / left.max(f64::MIN_POSITIVE)).ln(), SEEN.0 * free as f64 + SEEN.1]
+}
+
 /// Correlation of residuals with those to the right and below.
 fn neighbours(residuals: &[f64], [width, height]: [usize; 2]) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
@@ -162,4 +166,21 @@ fn correlations(fit: &Fit) -> Vec<(String, String, f64)> {
         }
     }
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eight parameters that each take one standard deviation from the noise of 28 × 28 pixels see nothing; a ring twelve times as bright as its
+    /// own error is seen.
+    #[test]
+    fn noise_and_a_faint_ring() {
+        let [found, least] = seen(784.0, 1.0, 1.0 - 8.0 / 784.0, 8);
+        assert!(found < least && (found - 8.04).abs() < 0.01, "{found} {least}");
+        let [found, least] = seen(784.0, 1.0 + 144.0 / 784.0, 1.0, 8);
+        assert!(found > least, "{found} {least}");
+        let [found, least] = seen(784.0, 1.0, 1.2, 8);
+        assert!(!(found > least));
+    }
 }

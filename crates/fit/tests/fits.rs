@@ -83,11 +83,9 @@ fn stripes_are_no_ring() {
     assert!(!found.good && found.warnings[0].starts_with("poor fit"), "{:?}", found.warnings);
 }
 
-/// Noise alone, a cat's head with its eyes and two rings: none of them is a ring, and the fits say so.
+/// A cat's head with its eyes and two rings are no ring, and the fits say so.
 #[test]
 fn other_pictures_are_no_ring() {
-    let mut rng = rand_pcg::Pcg64Mcg::seed_from_u64(3);
-    let noise = (0..784).map(|_| StandardNormal.sample(&mut rng)).collect();
     let lit = |light: &dyn Fn(f64, f64) -> bool| -> Vec<f64> {
         let value = |k: u32| f64::from(u8::from(light(f64::from(k % 28) - 13.5, 13.5 - f64::from(k / 28))));
         (0..784).map(value).collect()
@@ -97,7 +95,7 @@ fn other_pictures_are_no_ring() {
         (x.hypot(y + 3.0) < 8.5 || ear) && (x.abs() - 3.5).hypot(y + 1.5) > 1.6
     });
     let two = lit(&|x, y| ((x.abs() - 6.5).hypot(y) - 4.0).abs() < 1.2);
-    for (name, values) in [("noise", noise), ("a cat", cat), ("two rings", two)] {
+    for (name, values) in [("a cat", cat), ("two rings", two)] {
         let found =
             run(&Image { values, size: [28; 2], pixel: None }, Name::Ring, 3, None, &|| false).unwrap();
         assert!(!found.good && found.warnings[0].starts_with("poor fit"), "{name}: {:?}", found.warnings);
