@@ -13,12 +13,12 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words[..] {
-        ["pictures"] => pictures::draw(&root()),
+        ["pictures", ref names @ ..] => pictures::draw(&root(), names),
         ["campaign", name] => campaign::run(&root(), name),
         ["fuzz", ref words @ ..] => fuzz::run(&root(), words),
         ["sky-data", folder] => sky_data::write(&root(), Path::new(folder)),
         ["earth-data", folder] => earth_data::write(&root(), Path::new(folder)),
-        _ => Err("a chore is pictures, campaign NAME, fuzz [TARGET], sky-data FOLDER or earth-data FOLDER"
+        _ => Err("a chore is pictures [NAME...], campaign NAME, fuzz [TARGET], sky-data FOLDER or earth-data FOLDER"
             .to_owned()),
     };
     match outcome {

@@ -70,9 +70,24 @@ const PICTURES: &[(Option<&str>, &[&str], &str)] = &[
     (Some("scenes/two-holes.toml"), &[], "scenes/two-holes.png"),
 ];
 
-/// Draws them all again.
-pub fn draw(_root: &Path) -> Result<(), String> {
+/// Draws them again: all, or those whose file is called one of `names`, with or without folder and ending.
+pub fn draw(_root: &Path, names: &[&str]) -> Result<(), String> {
+    let is_called = |picture: &str, name: &str| {
+        let path = Path::new(picture);
+        path == Path::new(name)
+            || path.file_name() == Some(name.as_ref())
+            || path.file_stem() == Some(name.as_ref())
+    };
+    if let Some(name) =
+        names.iter().find(|name| !PICTURES.iter().any(|(.., picture)| is_called(picture, name)))
+    {
+        let known: Vec<&str> = PICTURES.iter().map(|(.., picture)| *picture).collect();
+        return Err(format!("no picture is called {name}; there are {}", known.join(", ")));
+    }
     for (scene, set, picture) in PICTURES.iter().copied() {
+        if !names.is_empty() && !names.iter().any(|name| is_called(picture, name)) {
+            continue;
+        }
         let mut arguments = vec!["run", "--release", "--locked", "--", "render", "-o", picture];
         arguments.extend(set.iter().flat_map(|set| ["--set", set]));
         arguments.extend(scene);

@@ -2,7 +2,8 @@
 //!
 //!     cargo xtask test             every test
 //!     cargo xtask check            formatting, lints, documentation
-//!     cargo xtask pictures         the pictures of README.md and scenes/
+//!     cargo xtask pictures [NAME...]
+//!                                  the pictures of README.md and scenes/, all or those of these names
 //!     cargo xtask campaign NAME    longer work, its dated report kept in reports/
 //!     cargo xtask fuzz [TARGET] [--seconds N]
 //!                                  libFuzzer on what reads files, 10 minutes a target
@@ -13,7 +14,7 @@
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str = "usage: cargo xtask test | check | pictures | campaign NAME | fuzz [TARGET] \
+const USAGE: &str = "usage: cargo xtask test | check | pictures [NAME...] | campaign NAME | fuzz [TARGET] \
      | sky-data FOLDER | earth-data FOLDER";
 
 fn main() -> ExitCode {

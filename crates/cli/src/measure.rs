@@ -16,12 +16,16 @@ use std::path::{Path, PathBuf};
     after_long_help = "JSON: size [width, height]; pixel { microarcseconds, gravitational_radii } or null; trusted_brightness, \
     false where a tone curve or colour map may have been at work. Each of shadow, ring and disk is { found: {...} } or { not_found: reason }. \
     A measured number is { value, error }, the error one standard deviation; lengths are in pixels.\n\
-    shadow: centre [right, up], diameter (twice the mean radius), area, area_diameter (by counting light, a second method), circularity \
+    shadow: centre [right, up], diameter (twice the mean radius, or the integral of r dtheta/pi along the outline), area, area_diameter (by counting light, a second method), circularity \
     (standard deviation of the radius over its mean), sharp (light begins abruptly), level (what part of the light's level counts as dark).\n\
     ring: centre, diameter, width, asymmetry, position_angle (degrees East of North: from up over left), central_brightness, by the \
     definitions of EHT Collaboration 2019, ApJL 875, L4.\n\
-    disk: right (r+), left (r-), below (h), above, from the shadow's centre to the disk's edge; left_share r-/(r- + r+), below_over_right h/r+; \
-    major_axis (degrees anticlockwise from the right), axes, displacement (the shadow's centre less that of the disk).\n\n\
+    disk: right (r+), left (r-), below (h), above, from the shadow's centre to where that direction leaves the disk for the last time; far_right \
+    and far_left, how far it reaches at any height; left_share r-/(r- + r+), below_over_right h/r+; major_axis (degrees anticlockwise from the \
+    right), axes, displacement (the shadow's centre less that of the disk), sharp (light ends abruptly; if not, the edge is where it is down to \
+    a fiftieth).\n\
+    What is not found has a reason, and the exit code stays 0; a file that is no picture, is the same all over or has pixels that are no numbers \
+    is refused with 2.\n\n\
     Examples:\n  kerrscope measure hole.png --overlay measured.png\n  \
     kerrscope measure m87.fits --format json\n  \
     kerrscope measure hole.png --spin 0.9 --inclination 60 --scale 0.05 --overlay curve.png"
@@ -138,6 +142,8 @@ fn report(picture: &Picture, features: &Features) -> String {
             lines.push(format!("  r+  (right)  {}", length(&disk.right)));
             lines.push(format!("  h   (below)  {}", length(&disk.below)));
             lines.push(format!("  above        {}", length(&disk.above)));
+            lines.push(format!("  furthest     left {}", length(&disk.far_left)));
+            lines.push(format!("               right {}", length(&disk.far_right)));
             let ratio = |m: &Measured| format!("{:.5} +- {:.5}", m.value, m.error);
             lines.push(format!("  r-/(r- + r+) {}", ratio(&disk.left_share)));
             lines.push(format!("  h/r+         {}", ratio(&disk.below_over_right)));
@@ -146,6 +152,8 @@ fn report(picture: &Picture, features: &Features) -> String {
                 "  axes         {major:.2} x {minor:.2} px, the major at {:.2} degrees",
                 disk.major_axis
             ));
+            let edge = if disk.sharp { "abrupt" } else { "gradual: where the light is down to a fiftieth" };
+            lines.push(format!("  edge         {edge}"));
         }
     }
     lines.join("\n")

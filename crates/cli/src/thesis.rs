@@ -2,7 +2,7 @@
 
 use crate::report::Failure;
 use crate::{Format, parse_finite, print, print_json};
-use kerrscope::measure::{Fit, Reading, Series, Setting};
+use kerrscope::measure::{Fit, Part, Reading, Repeat, Series, Setting};
 use serde::Serialize;
 
 /// Reads the lengths of Kamminga's "Imaging a Kerr Black Hole" (2022), chapter 5, off pictures and from single rays.
@@ -16,7 +16,8 @@ use serde::Serialize;
     row's ratio, per M; inverse [parameter, error] for --ratio.\n\n\
     Examples:\n  kerrscope thesis spins\n  kerrscope thesis inclinations --exact\n  \
     kerrscope thesis spins --exact --ratio 0.505 --ratio-error 0.001\n  \
-    kerrscope thesis spins --exact --step 1.5"
+    kerrscope thesis spins --exact --step 1.5\n  kerrscope thesis spins --exact --as-thesis\n  \
+    kerrscope thesis inclinations --exact --as-thesis=step,sheet,start --distance 10"
 )]
 pub struct Arguments {
     /// Which table
@@ -43,6 +44,9 @@ pub struct Arguments {
     /// Follow rays by RK4 with this constant step in M, as the thesis does with 1.5; only from single rays
     #[arg(long, value_name = "M", value_parser = parse_finite, requires = "exact")]
     step: Option<f64>,
+    /// Beside it, repeat the thesis's way of following rays, part by part, and say how much of the difference each explains
+    #[arg(long, value_name = "PARTS", value_enum, value_delimiter = ',', num_args = 0.., require_equals = true)]
+    as_thesis: Option<Vec<Way>>,
     /// A ratio, r-/(r- + r+) or h/r+, for which the spin or the inclination is wanted
     #[arg(long, value_name = "RATIO", value_parser = parse_finite)]
     ratio: Option<f64>,
@@ -62,6 +66,33 @@ enum Table {
     Inclinations,
 }
 
+/// A part of the thesis's manner.
+#[derive(clap::ValueEnum, Clone, Copy, Debug)]
+enum Way {
+    /// RK4 in place and velocity with steps of 1.5 M
+    Step,
+    /// Chords between the ends of steps
+    Chords,
+    /// Ingoing coordinates with the real spin
+    Sheet,
+    /// Velocity 1 at the start, not null
+    Start,
+    /// Hole and disk by Cartesian radius
+    Bodies,
+}
+
+impl Way {
+    const fn part(self) -> Part {
+        match self {
+            Self::Step => Part::Step,
+            Self::Chords => Part::Chords,
+            Self::Sheet => Part::Sheet,
+            Self::Start => Part::Start,
+            Self::Bodies => Part::Bodies,
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct Output {
     rows: Vec<Reading>,
@@ -70,6 +101,8 @@ struct Output {
     sensitivity: Sensitivity,
     #[serde(skip_serializing_if = "Option::is_none")]
     inverse: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    as_thesis: Vec<Repeat>,
 }
 
 #[derive(Serialize)]
@@ -111,7 +144,13 @@ fn calculate(arguments: &Arguments, series: Series, base: Setting) -> Result<Out
     let inverse =
         arguments.ratio.map(|ratio| series.invert(ratio, arguments.ratio_error.abs(), base)).transpose()?;
     let (fit, thesis_fit) = (Fit::of(&points(|row| row.ratio)), Fit::of(&points(|row| row.thesis_ratio)));
-    Ok(Output { rows, fit, thesis_fit, sensitivity, inverse })
+    let parts: Vec<Part> = match arguments.as_thesis.as_deref() {
+        None => Vec::new(),
+        Some([]) => Part::ALL.to_vec(),
+        Some(ways) => ways.iter().map(|way| way.part()).collect(),
+    };
+    let as_thesis = series.repeats(&rows, base, &parts);
+    Ok(Output { rows, fit, thesis_fit, sensitivity, inverse, as_thesis })
 }
 
 fn report(series: Series, output: &Output) -> String {
@@ -149,6 +188,7 @@ fn report(series: Series, output: &Output) -> String {
             ));
         }
     }
+    lines.extend(repeated(name, output));
     lines.push(format!(
         "the last ratio changes by {:+.5} for each M of the disk's edge and {:+.6} for each M of distance",
         output.sensitivity.edge, output.sensitivity.distance
@@ -157,4 +197,41 @@ fn report(series: Series, output: &Output) -> String {
         lines.push(format!("the ratio given has {name} {value:.5} +- {error:.5}"));
     }
     lines.join("\n")
+}
+
+/// The table in the thesis's manner, and what each of its parts explains.
+fn repeated(name: &str, output: &Output) -> Vec<String> {
+    let (Some(fit), Some(thesis_fit), Some(last)) = (output.fit, output.thesis_fit, output.as_thesis.last())
+    else {
+        return Vec::new();
+    };
+    let mut lines =
+        vec![String::new(), "in the thesis's manner, its parts added one after another".to_owned()];
+    let heads: Vec<String> = output.rows.iter().map(|row| format!("{:>8.3}", row.parameter)).collect();
+    lines.push(format!("{:<34} | {} |    slope  explains  rms off", name, heads.join(" ")));
+    let row = |words: &str, ratios: Vec<Option<f64>>, rest: String| {
+        let cell =
+            |ratio: Option<f64>| ratio.map_or_else(|| format!("{:>8}", "-"), |ratio| format!("{ratio:>8.4}"));
+        format!("{words:<34} | {} | {rest}", ratios.into_iter().map(cell).collect::<Vec<_>>().join(" "))
+    };
+    let slope = |fit: Fit| format!("{:>8.5}", fit.slope);
+    lines.push(row("exact", output.rows.iter().map(|r| Some(r.ratio)).collect(), slope(fit)));
+    for repeat in &output.as_thesis {
+        let fit = repeat.fit.map_or_else(|| format!("{:>8}", "-"), slope);
+        let share = repeat
+            .explains
+            .map_or_else(|| format!("{:>8}", "-"), |share| format!("{:>6.1} %", 100.0 * share));
+        let off = repeat.off.map_or_else(|| "-".to_owned(), |off| format!("{off:.4}"));
+        let words = format!("+ {}", repeat.adds.words());
+        lines.push(row(&words, repeat.ratios.clone(), format!("{fit}  {share}  {off:>7}")));
+    }
+    lines.push(row("thesis", output.rows.iter().map(|r| Some(r.thesis_ratio)).collect(), slope(thesis_fit)));
+    if let Some(share) = last.explains {
+        lines.push(format!(
+            "these parts together explain {:.0} % of the difference between the thesis's slope and that of exact rays",
+            100.0 * share
+        ));
+    }
+    lines.push(String::new());
+    lines
 }

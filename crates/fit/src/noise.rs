@@ -12,23 +12,9 @@ const QUIET: f64 = 2e-3;
 /// samples, not means, or that are moved by a part of a pixel, are so.
 const SAMPLED: f64 = 0.1;
 
-/// The standard deviation of a picture's noise, from second differences in both directions, of which all that is smooth drops out
-/// (Immerkær 1996, CVIU 64, 300), and whose median edges hardly move.
-pub fn estimate(values: &[f64], [width, height]: [usize; 2]) -> f64 {
-    let mut differences = Vec::new();
-    for row in 1..height.saturating_sub(1) {
-        for column in 1..width.saturating_sub(1) {
-            let at = |x: usize, y: usize| values[(row + y - 1) * width + column + x - 1];
-            let corners = at(0, 0) + at(2, 0) + at(0, 2) + at(2, 2);
-            let sides = at(1, 0) + at(0, 1) + at(2, 1) + at(1, 2);
-            differences.push((corners - 2.0 * sides + 4.0 * at(1, 1)).abs() / 6.0);
-        }
-    }
-    if differences.is_empty() {
-        return 0.0;
-    }
-    differences.sort_by(f64::total_cmp);
-    differences[differences.len() / 2] / 0.674_489_75
+/// The standard deviation of a picture's noise, as [`kerrscope::measure::noise`] finds it.
+pub fn estimate(values: &[f64], size: [usize; 2]) -> f64 {
+    kerrscope::measure::noise(values, size)
 }
 
 /// The brightest pixel's size.

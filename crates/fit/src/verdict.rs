@@ -10,6 +10,10 @@ const UNEXPLAINED: f64 = 0.05;
 /// Residuals this many times the pixels' own noise, and this large a share of the brightest, are the model's fault.
 const LARGE: (f64, f64) = (1.5, 0.02);
 
+/// What is seen at all makes the residuals' variance v of n pixels less than the picture's V: −2 Δ ln L = n ln(V/v). In noise alone each
+/// parameter finds about 1 of it, and the best of many places more: this for each, and this for all.
+const SEEN: (f64, f64) = (4.0, 30.0);
+
 /// A posterior nearly as wide as its prior says nothing.
 const WIDE: f64 = 0.8;
 
@@ -34,6 +38,7 @@ pub fn judge(
         left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
     let known = !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise");
     let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
+    let [found, least] = seen(n, variance, left, fit.free.len());
     if beyond > UNEXPLAINED * variance || excess || heavy {
         fit.good = false;
         warnings.push(format!(
@@ -44,6 +49,14 @@ pub fn judge(
             100.0 * beyond / variance,
             fit.chi2,
             fit.degrees,
+        ));
+    } else if !(found > least) {
+        fit.good = false;
+        warnings.push(format!(
+            "poor fit: the model explains {:.1} % of the picture's variance, no more than its {} free parameters may find in noise \
+             (n ln(V/v) is {found:.0}, and has to be above {least:.0}). Nothing like the model is seen: do not use its numbers",
+            100.0 * fit.explained,
+            fit.free.len(),
         ));
     }
     if !fit.converged {
@@ -110,6 +123,11 @@ pub fn judge(
     fit.warnings = warnings;
 }
 
+/// How much of what is there to see n pixels show, n ln(V/v), and how much it has to be.
+fn seen(n: f64, variance: f64, left: f64, free: usize) -> [f64; 2] {
+    [n * (variance / left.max(f64::MIN_POSITIVE)).ln(), SEEN.0 * free as f64 + SEEN.1]
+}
+
 /// Correlation of residuals with those to the right and below.
 fn neighbours(residuals: &[f64], [width, height]: [usize; 2]) -> f64 {
     let (mut product, mut square) = (0.0, 0.0);
@@ -148,4 +166,21 @@ fn correlations(fit: &Fit) -> Vec<(String, String, f64)> {
         }
     }
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eight parameters that each take one standard deviation from the noise of 28 × 28 pixels see nothing; a ring twelve times as bright as its
+    /// own error is seen.
+    #[test]
+    fn noise_and_a_faint_ring() {
+        let [found, least] = seen(784.0, 1.0, 1.0 - 8.0 / 784.0, 8);
+        assert!(found < least && (found - 8.04).abs() < 0.01, "{found} {least}");
+        let [found, least] = seen(784.0, 1.0 + 144.0 / 784.0, 1.0, 8);
+        assert!(found > least, "{found} {least}");
+        let [found, least] = seen(784.0, 1.0, 1.2, 8);
+        assert!(!(found > least));
+    }
 }

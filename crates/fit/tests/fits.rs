@@ -85,6 +85,25 @@ fn stripes_are_no_ring() {
     assert!(!found.good && found.warnings[0].starts_with("poor fit"), "{:?}", found.warnings);
 }
 
+/// A cat's head with its eyes and two rings are no ring, and the fits say so.
+#[test]
+fn other_pictures_are_no_ring() {
+    let lit = |light: &dyn Fn(f64, f64) -> bool| -> Vec<f64> {
+        let value = |k: u32| f64::from(u8::from(light(f64::from(k % 28) - 13.5, 13.5 - f64::from(k / 28))));
+        (0..784).map(value).collect()
+    };
+    let cat = lit(&|x, y| {
+        let ear = (1.0..8.0).contains(&x.abs()) && y > 0.0 && y < 5.0 + 1.2 * (x.abs() - 1.0);
+        (x.hypot(y + 3.0) < 8.5 || ear) && (x.abs() - 3.5).hypot(y + 1.5) > 1.6
+    });
+    let two = lit(&|x, y| ((x.abs() - 6.5).hypot(y) - 4.0).abs() < 1.2);
+    for (name, values) in [("a cat", cat), ("two rings", two)] {
+        let found =
+            run(&Image { values, size: [28; 2], pixel: None }, Name::Ring, 3, None, &|| false).unwrap();
+        assert!(!found.good && found.warnings[0].starts_with("poor fit"), "{name}: {:?}", found.warnings);
+    }
+}
+
 /// What cannot be fitted is refused.
 #[test]
 fn nothing_to_fit() {

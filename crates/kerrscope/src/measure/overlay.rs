@@ -40,12 +40,12 @@ impl Overlay {
         let mut overlay = Self { width: picture.width, height: picture.height, rgb };
         overlay.closed(curve, CRITICAL);
         if let Some(shadow) = features.shadow.found() {
-            overlay.closed(&shadow.outline.points().collect::<Vec<_>>(), SHADOW);
+            overlay.closed(&shadow.outline.points, SHADOW);
             let [x, y] = shadow.centre.map(|c| c.value);
             overlay.line([x - 4.0, y], [x + 4.0, y], SHADOW);
             overlay.line([x, y - 4.0], [x, y + 4.0], SHADOW);
             if let Some(disk) = features.disk.found() {
-                overlay.closed(&disk.outline.points().collect::<Vec<_>>(), DISK);
+                overlay.closed(&disk.outline.points, DISK);
                 for (dx, dy) in [(disk.right.value, 0.0), (-disk.left.value, 0.0), (0.0, -disk.below.value)] {
                     overlay.line([x, y], [x + dx, y + dy], DISK);
                 }

@@ -9,8 +9,15 @@
 //! f = ⟨I⟩ within a tenth of d of the centre / ⟨I⟩ at d/2
 //! ```
 //!
-//! The centre is where r_pk has no first harmonic, ∫ r_pk e^{iθ} dθ = 0, which is where its spread is least to first order, as
-//! Paper IV asks. Its f takes the mean within 5 µas, which for M87* is 0.12 d. The light of the sky is taken off first, and negative values count as they are.
+//! The averages of η and A are over radii, that of η one of directions; (d − w)/2 is 0 at least. The program with which the collaboration
+//! reads pictures (REx, also in eht-imaging) does the same. It differs from this in what follows:
+//!
+//! - The centre here is where r_pk has no first harmonic, ∫ r_pk e^{iθ} dθ = 0, which is where its spread is least to first order; there it
+//!   is looked for on a grid.
+//! - The sky's light is taken off from everything here; there the mean at 50 µas, and from the profile whose width is taken alone. Where the
+//!   sky is dark, as in their pictures, it is the same. Negative values count here as they are, and as zero there.
+//! - f here is the mean over r up to d/10 and θ, each radius counting as much as any other; there up to 5 µas, which for M87* is 0.12 d.
+//!
 //! Position angles are East of North with North up and East to the left.
 
 use std::f64::consts::TAU;
@@ -100,6 +107,9 @@ impl Ring {
             .map(|sum| sum / angles.len() as f64);
         let pa_spread = (-2.0 * sin.hypot(cos).min(1.0).ln()).max(0.0).sqrt();
         let at_ring = (0..DIRECTIONS).map(|k| value(mean, k)).sum::<f64>() / DIRECTIONS as f64;
+        let radii = (0..=steps).map(|n| 0.1 * diameter * f64::from(n) / f64::from(steps));
+        let within = radii.map(|r| (0..DIRECTIONS).map(|k| value(r, k)).sum::<f64>()).sum::<f64>()
+            / (DIRECTIONS as f64 * f64::from(steps + 1));
         Ok(Self {
             centre,
             diameter: Measured::new(diameter, 2.0 * spread),
@@ -109,7 +119,7 @@ impl Ring {
                 sin.atan2(cos).to_degrees().rem_euclid(360.0),
                 pa_spread.to_degrees(),
             ),
-            central_brightness: (inside(picture, &field, centre, 0.1 * diameter) - levels.sky) / at_ring,
+            central_brightness: within / at_ring,
             peaks,
         })
     }
@@ -171,19 +181,4 @@ fn width(field: &Field<'_>, sky: f64, centre: [f64; 2], angle: f64, peak: f64) -
         }
     };
     Some(walk(0.125)? - walk(-0.125)?)
-}
-
-/// Mean of the pixels within a distance of the centre; of the nearest place at least.
-fn inside(picture: &Picture, field: &Field<'_>, centre: [f64; 2], radius: f64) -> f64 {
-    let (mut sum, mut count) = (0.0, 0_u32);
-    for row in 0..picture.height {
-        for column in 0..picture.width {
-            let [x, y] = field.place(column, row);
-            if (x - centre[0]).hypot(y - centre[1]) <= radius {
-                sum += picture.values[row * picture.width + column];
-                count += 1;
-            }
-        }
-    }
-    if count == 0 { field.at(centre) } else { sum / f64::from(count) }
 }

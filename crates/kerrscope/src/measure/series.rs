@@ -12,17 +12,15 @@
 //! Exactly edge-on the disk has no face: its near side is a line of no width, and what is seen of it is the far side, above and
 //! below alike. r± are then the limits of the rows next to that line.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::path::Path as FilePath;
 
+use rayon::prelude::*;
 use serde::Serialize;
 
-use super::{Features, Outline, Picture};
-use crate::camera::Camera;
-use crate::render::{Stage, Watch, draw, tracer};
+use super::sight::Sight;
+use super::{Features, Fit, Manner, Part, Picture};
+use crate::render::{Stage, Watch, draw};
 use crate::scene::Scene;
-use crate::spacetime::Level;
-use crate::spacetime::geodesic::{Path, Query, Tracer};
 use crate::spacetime::kerr::horizons;
 
 /// Spins of the thesis's first table, with r− and r+ in its pixels.
@@ -38,11 +36,6 @@ const SPINS: [(f64, f64, f64); 7] = [
 /// h and r+ of its second table, in its pixels, for inclinations of kπ/14.
 const INCLINATIONS: [(f64, f64); 7] =
     [(90.0, 89.0), (95.0, 90.0), (98.0, 90.0), (97.0, 91.0), (87.0, 91.0), (69.0, 91.0), (38.0, 93.0)];
-
-/// Directions in which the edge of the shadow is looked for by single rays.
-const AROUND: usize = 180;
-/// How far off the disk's plane rays to the left and right start, radians of the direction in the picture.
-const OFF_PLANE: f64 = 1e-6;
 
 /// A disk as it is seen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,6 +56,8 @@ pub struct Setting {
     pub samples: u32,
     /// Constant step of RK4, M, the thesis's way; without it rays are exact.
     pub step: Option<f64>,
+    /// The thesis's manner of following rays, for [`Setting::exact`] alone.
+    pub manner: Option<Manner>,
 }
 
 impl Default for Setting {
@@ -77,6 +72,7 @@ impl Default for Setting {
             size: [800, 800],
             samples: 64,
             step: None,
+            manner: None,
         }
     }
 }
@@ -123,6 +119,21 @@ pub struct Reading {
     pub thesis_ratio: f64,
 }
 
+/// A table in the thesis's manner, as far as some of its parts go.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Repeat {
+    /// The part that is added to those before.
+    pub adds: Part,
+    /// The ratio of each row; none where shadow or disk are not found.
+    pub ratios: Vec<Option<f64>>,
+    /// The straight line through them.
+    pub fit: Option<Fit>,
+    /// Which share of the difference between the thesis's slope and that of exact rays this one's has.
+    pub explains: Option<f64>,
+    /// Root mean square of the differences from the thesis's ratios.
+    pub off: Option<f64>,
+}
+
 /// Which of the two tables.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Series {
@@ -138,7 +149,8 @@ impl Setting {
     /// # Errors
     /// When the setting is none that can be seen, in words.
     pub fn scene(&self) -> Result<Scene, String> {
-        let Self { spin, inclination, edge, distance, field, size: [width, height], samples, step } = *self;
+        let Self { spin, inclination, edge, distance, field, size: [width, height], samples, step, .. } =
+            *self;
         let inner = horizons(spin).0 * (1.0 + 1e-6);
         let method = step.map_or_else(String::new, |step| {
             format!("engine = 'integrator'\nmethod = 'rk4'\nstep = {step:?}\nadaptive = false\n")
@@ -156,32 +168,12 @@ impl Setting {
         Scene::from_toml(&text, FilePath::new("")).map_err(|faults| faults.to_string())
     }
 
-    /// The lengths from single rays: to about 1e-9 pixels.
+    /// The lengths from single rays: to about 1e-9 pixels, 1e-5 in the thesis's manner.
     ///
     /// # Errors
     /// As [`Setting::scene`], and when the shadow or the disk's edge is not in view.
     pub fn exact(&self) -> Result<Lengths, String> {
-        let scene = self.scene()?;
-        let sight = Sight {
-            camera: Camera::new(&scene).map_err(|e| e.to_string())?,
-            tracer: tracer(&scene, Level::best()),
-            middle: self.size.map(|n| 0.5 * f64::from(n)),
-            unit: self.edge / self.distance / self.pixel(),
-        };
-        let edge = self.edge;
-        let mut centre = [0.0; 2];
-        // The centroid does not depend on where directions begin; from near it, it is exact to the order of the rule.
-        for _ in 0..2 {
-            let radii = (0..AROUND)
-                .map(|k| sight.dark_until(centre, TAU * k as f64 / AROUND as f64 + OFF_PLANE))
-                .collect::<Option<Vec<f64>>>()
-                .ok_or("the shadow is not in view")?;
-            centre = Outline { centre, radii }.centroid();
-        }
-        let lit_until =
-            |angle: f64| sight.lit_until(centre, angle, edge).ok_or("the disk's edge is not in view");
-        let below = if (self.inclination - 90.0).abs() < 1e-12 { 0.0 } else { lit_until(-FRAC_PI_2)? };
-        Ok(Lengths { centre, left: lit_until(PI - OFF_PLANE)?, right: lit_until(OFF_PLANE)?, below })
+        Sight::new(self)?.lengths((self.inclination - 90.0).abs() >= 1e-12)
     }
 
     /// The picture.
@@ -218,59 +210,9 @@ impl Setting {
     }
 
     /// A pixel's side at the picture's middle, as the tangent of an angle.
-    fn pixel(&self) -> f64 {
+    pub(super) fn pixel(&self) -> f64 {
         2.0 * (0.5 * self.field.to_radians()).tan() / f64::from(self.size[1])
     }
-}
-
-/// Single rays of a picture.
-struct Sight {
-    camera: Camera,
-    tracer: Box<dyn Tracer>,
-    middle: [f64; 2],
-    /// The disk's radius in pixels if light were straight.
-    unit: f64,
-}
-
-impl Sight {
-    /// Radius at which the light of order 0 from a place leaves the disk's plane.
-    fn radius(&self, centre: [f64; 2], angle: f64, distance: f64) -> Option<f64> {
-        let (sin, cos) = angle.sin_cos();
-        let place = [centre[0] + distance * cos, centre[1] + distance * sin];
-        let ray = self.camera.ray(self.middle[0] + place[0], self.middle[1] - place[1]).ok()?;
-        let mut path = Path::default();
-        self.tracer.trace(&ray, &Query { max_crossings: 1, ..Query::default() }, &mut path);
-        path.crossings.first().map(|crossing| crossing.r)
-    }
-
-    /// How far from a centre no light of order 0 comes.
-    fn dark_until(&self, centre: [f64; 2], angle: f64) -> Option<f64> {
-        let lit = |distance: f64| self.radius(centre, angle, distance).is_some();
-        let step = 0.02 * self.unit;
-        let first = (1..200).find(|k| lit(f64::from(*k) * step))?;
-        Some(bisected(f64::from(first - 1) * step, f64::from(first) * step, |at| !lit(at)))
-    }
-
-    /// How far from a centre light of order 0 comes from within a radius.
-    fn lit_until(&self, centre: [f64; 2], angle: f64, edge: f64) -> Option<f64> {
-        let lit = |distance: f64| self.radius(centre, angle, distance).is_some_and(|r| r <= edge);
-        let step = 0.01 * self.unit;
-        let last = (1..300).rev().find(|k| lit(f64::from(*k) * step))?;
-        Some(bisected(f64::from(last) * step, f64::from(last + 1) * step, lit))
-    }
-}
-
-/// Where a condition that holds at `low` and not at `high` ends.
-fn bisected(mut low: f64, mut high: f64, holds: impl Fn(f64) -> bool) -> f64 {
-    while high - low > 1e-11 * high {
-        let middle = 0.5 * (low + high);
-        if holds(middle) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + high)
 }
 
 impl Series {
@@ -317,6 +259,33 @@ impl Series {
             Ok(Reading { parameter, exact, measured, ratio: self.ratio(&exact), thesis, thesis_ratio })
         };
         self.rows().into_iter().map(row).collect()
+    }
+
+    /// The table in the thesis's manner, its parts added one after another, beside that of exact rays.
+    pub fn repeats(self, exact: &[Reading], base: Setting, parts: &[Part]) -> Vec<Repeat> {
+        let slope = |ratio: fn(&Reading) -> f64| {
+            Fit::of(&exact.iter().map(|row| [row.parameter, ratio(row)]).collect::<Vec<_>>())
+                .map(|fit| fit.slope)
+        };
+        let (here, theirs) = (slope(|row| row.ratio), slope(|row| row.thesis_ratio));
+        let repeat = |count: usize| {
+            let manner = Some(Manner::of(&parts[..=count]));
+            let ratio = |row: &Reading| {
+                let setting = Setting { manner, ..self.at(row.parameter, base) };
+                setting.exact().ok().map(|lengths| self.ratio(&lengths)).filter(|ratio| ratio.is_finite())
+            };
+            let ratios: Vec<Option<f64>> = exact.par_iter().map(ratio).collect();
+            let rows = || exact.iter().zip(&ratios).filter_map(|(row, ratio)| Some((row, (*ratio)?)));
+            let fit = Fit::of(&rows().map(|(row, ratio)| [row.parameter, ratio]).collect::<Vec<_>>());
+            let squares = rows().map(|(row, ratio)| (ratio - row.thesis_ratio).powi(2)).sum::<f64>();
+            let explains = match (fit, here, theirs) {
+                (Some(fit), Some(here), Some(theirs)) => Some((fit.slope - here) / (theirs - here)),
+                _ => None,
+            };
+            let off = Some((squares / rows().count() as f64).sqrt()).filter(|off| off.is_finite());
+            Repeat { adds: parts[count], ratios, fit, explains, off }
+        };
+        (0..parts.len()).map(repeat).collect()
     }
 
     /// How the exact ratio changes with one of the setting's numbers: its derivative, by a central difference.

@@ -2,25 +2,52 @@
 //!
 //! Levels are counted from that of the sky, the median of the picture's outermost pixels, to that of the light, which 99.5 % of
 //! the pixels do not exceed. Dark is what is below a fraction of this range. The fraction begins at one half and goes down until a
-//! dark region is enclosed whose outline each direction from its centroid meets once: so it is half of the light
-//! wherever the light is about even, and less where one side is dim.
+//! dark region is enclosed that is no mere pocket, but a quarter of the largest at any fraction: so it is half of the light wherever the
+//! light is about even, and less where one side is dim. Its outline is followed as a closed curve of any shape.
 //!
 //! Where light begins abruptly, its edge is found from the levels on both its sides ([`super::profile`]), whatever the fraction.
 //! Where it rises gradually there is no edge: the outline is that of the fraction, and depends on it.
+//!
+//! Any picture may enclose something dark. It is called no shadow
+//!
+//! - if there is another dark region at least half as large, as of two eyes or of the two halves that a disk seen nearly from its edge leaves
+//!   of a shadow; or one within other light, as of a second hole;
+//! - if its outline has dents: shadows and the inner edges of disks, seen from any side, have none to speak of (their area is 97 % of
+//!   their hull's and more);
+//! - if it is no darker than the sky, where the sky is not black;
+//! - if the outline moves too far with a tenth of the level: hollows between blobs of light do, and are not round; blurred rings do, and are.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use serde::Serialize;
 
+use super::contour::{Region, Side, around, regions};
+use super::noise::noise;
 use super::profile::Field;
-use super::{Measured, Outline, Picture};
+use super::rim::{EDGE_ERROR, Rim};
+use super::{Curve, Measured, Picture};
 
-/// Directions of an outline.
+/// Directions around a centre.
 pub(super) const DIRECTIONS: usize = 360;
-/// The error of the place of a sharp edge in one direction, pixels: what remains for oblique edges.
-pub(super) const EDGE_ERROR: f64 = 0.03;
 /// Fewest pixels of a region.
 const SMALLEST: usize = 30;
+/// The share of what a dark region's outline encloses that is dark itself, at least.
+const DARK: f64 = 0.75;
+/// Another dark region of this share of the largest is one too many.
+const RIVAL: f64 = 0.5;
+/// A dark region within other light counts from this share on.
+const STRANGER: f64 = 0.05;
+/// Regions smaller than this share of the largest at any fraction are pockets.
+const POCKET: f64 = 0.25;
+/// The share of its hull that a shadow fills, at least.
+const SOLID: f64 = 0.93;
+/// The sky is not black if it is so many times the noise, and this part of the light, above the darkest hundredth of the pixels.
+const SKY_NOISE: f64 = 4.0;
+const SKY_SHARE: f64 = 0.02;
+/// The share of its radius by which an outline may move with a tenth of the level: one that is round, and any other.
+const VAGUE: [f64; 2] = [0.15, 0.04];
+/// Round is what has no larger circularity.
+const ROUND: f64 = 0.1;
 
 /// Levels of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +56,10 @@ pub(super) struct Levels {
     pub sky: f64,
     /// Of the light.
     pub light: f64,
+    /// Which one of a hundred pixels does not exceed.
+    pub floor: f64,
+    /// Standard deviation of the pixels' noise.
+    pub noise: f64,
 }
 
 /// The shadow. Lengths are in pixels; errors are of one standard deviation.
@@ -36,7 +67,7 @@ pub(super) struct Levels {
 pub struct Shadow {
     /// Centre of its area, right and up of the picture's middle.
     pub centre: [Measured; 2],
-    /// Twice the mean over directions of its radius from that centre.
+    /// Twice the mean over directions of its radius from that centre, ∮ r dθ/π.
     pub diameter: Measured,
     /// Area within the outline, pixels².
     pub area: Measured,
@@ -51,7 +82,7 @@ pub struct Shadow {
     pub level: f64,
     /// The outline.
     #[serde(skip)]
-    pub outline: Outline,
+    pub outline: Curve,
 }
 
 impl Levels {
@@ -64,11 +95,14 @@ impl Levels {
         };
         let mut border: Vec<f64> = (0..values.len()).filter(is_border).map(|k| values[k]).collect();
         let middle = border.len() / 2;
-        let (_, sky, _) = border.select_nth_unstable_by(middle, f64::total_cmp);
+        let sky = *border.select_nth_unstable_by(middle, f64::total_cmp).1;
         let mut all = values.clone();
         let place = (all.len() * 995 / 1000).min(all.len() - 1);
-        let (_, light, _) = all.select_nth_unstable_by(place, f64::total_cmp);
-        Self { sky: *sky, light: *light }
+        let light = *all.select_nth_unstable_by(place, f64::total_cmp).1;
+        let place = all.len() / 100;
+        let floor = *all.select_nth_unstable_by(place, f64::total_cmp).1;
+        let noise = noise(values, [width, height]);
+        Self { sky, light, floor, noise }
     }
 
     pub fn at(&self, fraction: f64) -> f64 {
@@ -103,67 +137,86 @@ impl Levels {
 impl Shadow {
     /// Looks for the shadow of a picture.
     pub(super) fn of(picture: &Picture, levels: Levels) -> Result<Self, String> {
-        let field = Field::new(picture);
-        let mut reason = "no dark region is enclosed by light".to_owned();
-        let mut fraction: f64 = 0.5;
-        while fraction > 0.02 {
-            if let Some(start) = enclosed(picture, levels.at(fraction)) {
-                match Self::around(picture, &field, start, fraction, levels) {
-                    Ok(shadow) => return Ok(shadow),
-                    Err(why) => reason = why,
-                }
+        let fractions = std::iter::successors(Some(0.5), |f| Some(0.8 * f)).take_while(|f| *f > 0.02);
+        let found: Vec<(f64, Vec<Region>)> = fractions
+            .map(|f| (f, enclosed(picture, levels.at(f))))
+            .filter(|(_, dark)| !dark.is_empty())
+            .collect();
+        let largest = found.iter().map(|(_, dark)| dark[0].pixels).max().unwrap_or(0);
+        let mut reason = None;
+        for (fraction, dark) in
+            found.iter().filter(|(_, dark)| dark[0].pixels as f64 > POCKET * largest as f64)
+        {
+            rivals(picture, levels.at(*fraction), dark)?;
+            match Self::within(picture, &dark[0], *fraction, levels) {
+                Ok(shadow) => return Ok(shadow),
+                Err(why) => reason = reason.or(Some(why)),
             }
-            fraction *= 0.8;
         }
-        Err(reason)
+        Err(reason.unwrap_or_else(|| "no dark region is enclosed by light".to_owned()))
     }
 
-    fn around(
-        picture: &Picture,
-        field: &Field<'_>,
-        start: [f64; 2],
-        fraction: f64,
-        levels: Levels,
-    ) -> Result<Self, String> {
+    fn within(picture: &Picture, region: &Region, fraction: f64, levels: Levels) -> Result<Self, String> {
         let level = levels.at(fraction);
-        let mut outline = trace(field, start, level)?;
-        for _ in 0..3 {
-            outline = trace(field, outline.0.centroid(), level)?;
-        }
-        let (outline, sharp, brightness) = outline;
-        let (mean, spread) = outline.mean_radius();
-        let jump = outline.largest_jump();
-        if jump > (0.15 * mean).max(2.0) {
-            return Err("the dark region that is enclosed has no smooth outline".to_owned());
-        }
+        let rim = Rim::of(picture, (level, Side::Dark, region), 1.5, |[dark, light]| dark < light);
+        let sharp = rim.is_sharp();
+        let outline = if sharp { rim.curve.clone() } else { around(picture, level, Side::Dark, region) };
+        let centre = outline.centroid();
+        let (mean, spread) = outline.mean_radius(centre);
         if mean < 3.0 {
             return Err(format!("the dark region that is enclosed is only {:.1} pixels wide", 2.0 * mean));
+        }
+        let solidity = outline.solidity();
+        if solidity < SOLID {
+            return Err(format!(
+                "the dark region that is enclosed is no shadow: its outline has dents, and its area is {:.0} % of its hull's",
+                100.0 * solidity
+            ));
         }
         if spread > 0.4 * mean {
             return Err("the dark region that is enclosed is too far from round to be a shadow".to_owned());
         }
-        // One direction's error; neighbours within a pixel of each other share it.
-        let apart = (TAU * mean / DIRECTIONS as f64).min(1.0);
+        let depth = levels.sky - levels.floor;
+        let black = depth < (SKY_NOISE * levels.noise).max(SKY_SHARE * (levels.light - levels.floor));
+        if !black && median_within(picture, &outline) > levels.sky - 0.5 * depth {
+            return Err("the dark region that is enclosed is no darker than the sky outside".to_owned());
+        }
+        // One point's error; neighbours within a pixel of each other share it.
         let single = if sharp {
             outline.scatter().max(EDGE_ERROR)
         } else {
             // How far the outline moves when the level does by a tenth.
-            let moved = [0.9, 1.1].map(|f| trace(field, outline.centre, levels.at(f * fraction)));
-            let [Ok(low), Ok(high)] = moved else {
+            let radius = |factor: f64| {
+                let level = levels.at(factor * fraction);
+                let all = enclosed(picture, level);
+                let curves = all.iter().map(|region| around(picture, level, Side::Dark, region));
+                curves.filter(|curve| curve.encloses(centre)).map(|curve| curve.mean_radius(centre).0).next()
+            };
+            let (Some(low), Some(high)) = (radius(0.9), radius(1.1)) else {
                 return Err("the outline of the dark region depends on what is called dark".to_owned());
             };
-            (high.0.mean_radius().0 - low.0.mean_radius().0).abs().max(outline.scatter())
+            (high - low).abs().max(outline.scatter())
         };
-        let independent = (DIRECTIONS as f64 * apart).max(1.0);
+        if single > VAGUE[usize::from(spread > ROUND * mean)] * mean {
+            return Err(format!(
+                "the dark region that is enclosed has no certain outline: it moves by {single:.1} pixels with a tenth of what is called dark, for \
+                 a radius of {mean:.1}"
+            ));
+        }
+        let independent = outline.length().max(1.0);
         let of_mean = if sharp { single / independent.sqrt() + 0.1 * EDGE_ERROR } else { single };
         let of_place = single / (0.5 * independent).sqrt() + 0.1 * EDGE_ERROR;
-        let centre = outline.centroid();
         let area = outline.area();
-        let area_diameter = 2.0 * (missing(picture, field, &outline, &brightness) / PI).sqrt();
+        let brightness: Vec<[f64; 2]> = if sharp {
+            rim.levels.iter().map(|levels| levels.unwrap_or([0.0, level])).collect()
+        } else {
+            vec![[0.0, level]; outline.points.len()]
+        };
+        let area_diameter = 2.0 * (missing(picture, &outline, &brightness) / PI).sqrt();
         Ok(Self {
             centre: centre.map(|c| Measured::new(c, of_place)),
             diameter: Measured::new(2.0 * mean, 2.0 * of_mean),
-            area: Measured::new(area, TAU * mean * of_mean),
+            area: Measured::new(area, 2.0 * PI * mean * of_mean),
             area_diameter,
             circularity: Measured::new(spread / mean, of_place / mean),
             sharp,
@@ -173,121 +226,106 @@ impl Shadow {
     }
 }
 
-/// The outline about a centre, whether it is sharp, and the levels inside and outside.
-fn trace(field: &Field<'_>, centre: [f64; 2], level: f64) -> Result<(Outline, bool, Vec<[f64; 2]>), String> {
-    let mut rough = Vec::with_capacity(DIRECTIONS);
-    let mut edges = Vec::with_capacity(DIRECTIONS);
-    for k in 0..DIRECTIONS {
-        let angle = TAU * k as f64 / DIRECTIONS as f64;
-        let near = first_above(field, centre, angle, level)
-            .ok_or_else(|| "the dark region that is enclosed has no smooth outline".to_owned())?;
-        rough.push(near);
-        edges.push(field.edge(centre, angle, near).filter(|e| e.sharp && (e.radius - near).abs() < 1.5));
+/// An objection if there are dark regions besides the first, which is the largest, that make it one of several.
+fn rivals(picture: &Picture, level: f64, dark: &[Region]) -> Result<(), String> {
+    let (first, others) = (&dark[0], &dark[1..]);
+    if let Some(other) = others.iter().find(|r| r.pixels as f64 > RIVAL * first.pixels as f64) {
+        return Err(format!(
+            "light encloses dark regions of {} and {} pixels: which of them is a shadow, or part of one, cannot be told",
+            first.pixels, other.pixels
+        ));
     }
-    let sharp = edges.iter().flatten().count() * 10 >= DIRECTIONS * 8;
-    let radius = |(near, edge): (&f64, &Option<super::profile::Edge>)| {
-        edge.filter(|_| sharp).map_or(*near, |e| e.radius)
-    };
-    let radii: Vec<f64> = rough.iter().zip(&edges).map(radius).collect();
-    let brightness =
-        edges.iter().map(|edge| edge.filter(|_| sharp).map_or([0.0, level], |e| e.levels)).collect();
-    Ok((Outline { centre, radii }, sharp, brightness))
+    let lit = regions(picture, level, Side::Light);
+    let field = Field::new(picture);
+    let place = |region: &Region| field.place(region.first % picture.width, region.first / picture.width);
+    for other in others.iter().filter(|r| r.pixels as f64 > STRANGER * first.pixels as f64) {
+        let shared = lit.iter().filter(|light| light.pixels >= SMALLEST / 2).any(|light| {
+            let curve = around(picture, level, Side::Light, light);
+            curve.encloses(place(first)) && curve.encloses(place(other))
+        });
+        if !shared {
+            return Err(format!(
+                "there are two rings of light, around dark regions of {} and {} pixels: more than one hole, or something else",
+                first.pixels, other.pixels
+            ));
+        }
+    }
+    Ok(())
 }
 
-/// Where a ray first rises above a level.
-fn first_above(field: &Field<'_>, centre: [f64; 2], angle: f64, level: f64) -> Option<f64> {
-    let step = 0.25;
-    let count = (field.reach(centre, angle) / step) as usize;
-    let mut before = field.at(centre);
-    for k in 1..=count {
-        let value = field.on_ray(centre, angle, k as f64 * step);
-        if value > level {
-            if before >= level {
-                return None;
-            }
-            return Some((k as f64 - (value - level) / (value - before)) * step);
+/// The median of the values within a curve.
+fn median_within(picture: &Picture, curve: &Curve) -> f64 {
+    let field = Field::new(picture);
+    let mut values = Vec::new();
+    for row in 0..picture.height {
+        let cuts = within_row(curve, field.place(0, row)[1]);
+        if !cuts.is_empty() {
+            let inside = |column: &usize| {
+                let x = field.place(*column, row)[0];
+                cuts.iter().filter(|cut| **cut < x).count() % 2 == 1
+            };
+            values.extend(
+                (0..picture.width).filter(inside).map(|column| picture.values[row * picture.width + column]),
+            );
         }
-        before = value;
     }
-    None
+    let middle = values.len() / 2;
+    if values.is_empty() { f64::NAN } else { *values.select_nth_unstable_by(middle, f64::total_cmp).1 }
 }
 
 /// Sum over pixels of the light that is missing within an outline and at its edge, in units of the light around it.
-fn missing(picture: &Picture, field: &Field<'_>, outline: &Outline, levels: &[[f64; 2]]) -> f64 {
-    let n = outline.radii.len();
+#[expect(clippy::cast_possible_wrap, reason = "a picture has 16384 pixels along an edge at most")]
+fn missing(picture: &Picture, outline: &Curve, levels: &[[f64; 2]]) -> f64 {
+    let field = Field::new(picture);
+    let Picture { width, height, values, .. } = picture;
+    // For pixels up to two from the outline, the point of it that is nearest.
+    let mut nearest: Vec<Option<(f64, usize)>> = vec![None; values.len()];
+    for (k, point) in outline.points.iter().enumerate() {
+        let [left, top] = field.place(0, 0);
+        let (column, row) = ((point[0] - left).round() as isize, (top - point[1]).round() as isize);
+        for (x, y) in (-3..=3).flat_map(|dy| (-3..=3).map(move |dx| (column + dx, row + dy))) {
+            if (0..*width as isize).contains(&x) && (0..*height as isize).contains(&y) {
+                let place = field.place(x as usize, y as usize);
+                let distance = (place[0] - point[0]).hypot(place[1] - point[1]);
+                let entry = &mut nearest[y as usize * width + x as usize];
+                if distance < 2.0 && entry.is_none_or(|(before, _)| distance < before) {
+                    *entry = Some((distance, k));
+                }
+            }
+        }
+    }
     let mut sum = 0.0;
-    for row in 0..picture.height {
-        for column in 0..picture.width {
-            let [x, y] = field.place(column, row);
-            let (x, y) = (x - outline.centre[0], y - outline.centre[1]);
-            let k = ((y.atan2(x) / TAU).rem_euclid(1.0) * n as f64).round() as usize % n;
-            let distance = x.hypot(y) - outline.radii[k];
-            if distance < -2.0 {
-                sum += 1.0;
-            } else if distance < 2.0 {
+    for row in 0..*height {
+        let inside = within_row(outline, field.place(0, row)[1]);
+        for column in 0..*width {
+            let at = row * width + column;
+            if let Some((_, k)) = nearest[at] {
                 let [dark, light] = levels[k];
-                let value = picture.values[row * picture.width + column];
-                sum += ((light - value) / (light - dark)).clamp(0.0, 1.0);
+                sum += ((light - values[at]) / (light - dark)).clamp(0.0, 1.0);
+            } else {
+                let x = field.place(column, row)[0];
+                sum += f64::from(u8::from(inside.iter().filter(|cut| **cut < x).count() % 2 == 1));
             }
         }
     }
     sum
 }
 
-/// The centroid of the largest region below a level that does not reach the border and has its centroid in itself.
-fn enclosed(picture: &Picture, level: f64) -> Option<[f64; 2]> {
-    let Picture { width, height, values, .. } = picture;
-    let (width, height) = (*width, *height);
-    let mut seen: Vec<bool> = values.iter().map(|value| *value > level).collect();
-    let mut best: Option<(usize, [f64; 2])> = None;
-    let mut region = Vec::new();
-    for first in 0..values.len() {
-        if seen[first] {
-            continue;
-        }
-        region.clear();
-        region.push(first);
-        seen[first] = true;
-        let (mut done, mut open) = (0, false);
-        while let Some(&at) = region.get(done) {
-            done += 1;
-            let (column, row) = (at % width, at / width);
-            let inside = column > 0 && row > 0 && column + 1 < width && row + 1 < height;
-            open |= !inside;
-            let mut visit = |next: usize| {
-                if !seen[next] {
-                    seen[next] = true;
-                    region.push(next);
-                }
-            };
-            if column > 0 {
-                visit(at - 1);
-            }
-            if column + 1 < width {
-                visit(at + 1);
-            }
-            if row > 0 {
-                visit(at - width);
-            }
-            if row + 1 < height {
-                visit(at + width);
-            }
-        }
-        if open || region.len() < SMALLEST || best.is_some_and(|(size, _)| size >= region.len()) {
-            continue;
-        }
-        let n = region.len() as f64;
-        let [x, y] = region
-            .iter()
-            .fold([0.0; 2], |[x, y], at| [x + (at % width) as f64, y + (at / width) as f64])
-            .map(|sum| sum / n);
-        // Between two rows or columns either may be in it.
-        let corners = [[x.floor(), y.floor()], [x.ceil(), y.ceil()]];
-        if corners.iter().any(|[x, y]| values[*y as usize * width + *x as usize] <= level) {
-            let field = Field::new(picture);
-            let [left, top] = field.place(0, 0);
-            best = Some((region.len(), [left + x, top - y]));
-        }
-    }
-    best.map(|(_, centroid)| centroid)
+/// Where a row crosses a curve.
+fn within_row(curve: &Curve, y: f64) -> Vec<f64> {
+    let next = curve.points.iter().skip(1).chain(curve.points.first());
+    let crosses = curve.points.iter().zip(next).filter(|(a, b)| (a[1] > y) != (b[1] > y));
+    crosses.map(|(a, b)| a[0] + (y - a[1]) / (b[1] - a[1]) * (b[0] - a[0])).collect()
+}
+
+/// Dark regions that do not reach the border and have little light within, the largest first.
+fn enclosed(picture: &Picture, level: f64) -> Vec<Region> {
+    let mut found = regions(picture, level, Side::Dark);
+    found.retain(|region| !region.open && region.pixels >= SMALLEST);
+    found.sort_by_key(|region| std::cmp::Reverse(region.pixels));
+    found.truncate(8);
+    found.retain(|region| {
+        region.pixels as f64 > DARK * around(picture, level, Side::Dark, region).polygon_area()
+    });
+    found
 }
