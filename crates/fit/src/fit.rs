@@ -79,6 +79,9 @@ pub enum FitError {
         /// Its row.
         row: usize,
     },
+    /// Nothing of it is lit before something dark, or there are no edges.
+    #[error("{0}")]
+    NoSilhouette(String),
     /// The model has no picture near the data.
     #[error(
         "no parameters were found with which the model has a picture: fix some with --fix, or give priors"
@@ -131,6 +134,11 @@ pub struct Fit {
 pub trait Models: Sync {
     /// The light.
     fn source(&self, fineness: usize) -> Box<dyn Source>;
+
+    /// What is assumed of a picture's errors, the standard deviation of its pixels' noise being known or not.
+    fn noise(&self, image: &Image, known: Option<f64>) -> Noise {
+        noise::assume(&image.values, image.size, known)
+    }
 }
 
 /// Noise above this share of the brightest pixel lets a coarser model do.
@@ -143,7 +151,7 @@ const NOISY: f64 = 0.01;
 pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<Fit, FitError> {
     check(image)?;
     let peak = noise::peak(&image.values);
-    let assumed = noise::assume(&image.values, image.size, options.noise);
+    let assumed = models.noise(image, options.noise);
     let level = options.noise.unwrap_or_else(|| noise::estimate(&image.values, image.size));
     let fineness = if level > NOISY * peak { 1 } else { 2 };
     let model = Observed::new(models.source(fineness), image.size);
@@ -213,7 +221,8 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     Ok(fit)
 }
 
-fn check(image: &Image) -> Result<(), FitError> {
+/// Whether there is something to fit.
+pub(crate) fn check(image: &Image) -> Result<(), FitError> {
     let [width, height] = image.size;
     if width < 8 || height < 8 {
         return Err(FitError::Small(width, height));
