@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::chains::{CHAINS, Chains, Draws, Field, ROUND};
 use crate::coordinates::Coordinates;
 use crate::likelihood::{Noise, Posterior};
-use crate::mode::Mode;
+use crate::mode::{Mode, climb};
 use crate::model::{Freedom, Prediction, Source};
 use crate::noise;
 use crate::observed::Observed;
@@ -139,6 +139,16 @@ pub trait Models: Sync {
     fn noise(&self, image: &Image, known: Option<f64>) -> Noise {
         noise::assume(&image.values, image.size, known)
     }
+
+    /// What the best picture tells of the errors, where their size is the factor s: none if nothing new.
+    fn revised(&self, _image: &Image, _best: &[f64], _size: f64) -> Option<Noise> {
+        None
+    }
+
+    /// Standard deviation of what the model need not explain.
+    fn level(&self, image: &Image) -> f64 {
+        noise::estimate(&image.values, image.size)
+    }
 }
 
 /// Noise above this share of the brightest pixel lets a coarser model do.
@@ -164,7 +174,20 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let posterior =
         Posterior { model: &model, data: &image.values, noise: &assumed, coordinates: &coordinates };
     (options.progress)("looking for modes");
-    let (modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    let (mut modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    let values = &modes[0].evaluation.values;
+    let best = model.predict(&values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
+    let size = values.get(model.parameters().len()).copied().unwrap_or(1.0);
+    let revised = models.revised(image, &best.values, size);
+    let assumed = revised.as_ref().unwrap_or(&assumed);
+    let posterior =
+        Posterior { model: &model, data: &image.values, noise: assumed, coordinates: &coordinates };
+    if revised.is_some() {
+        let again = |mode: &Mode| climb(&posterior, &mode.place[..posterior.count()], 40);
+        modes = modes.iter().filter_map(again).collect();
+        evaluations += modes.iter().map(|mode| mode.evaluations).sum::<usize>();
+        modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+    }
     let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
     let mut chains = field.begin().ok_or(FitError::NoStart)?;
     let mut all: Vec<Draws> = vec![Draws::default(); CHAINS];
@@ -206,7 +229,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         explained: 0.0,
         evidence: modes[0].evidence(),
         evaluations,
-        errors: errors(&assumed, &modes[0].evaluation.values),
+        errors: errors(assumed, &modes[0].evaluation.values),
         best,
         draws: values
             .iter()
@@ -217,7 +240,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         diverged: all.iter().map(|draws| draws.diverged).sum(),
     };
     let known = (model.parameters(), options.freedoms.as_slice());
-    verdict::judge(&mut fit, image, known, modes.len(), noise::estimate(&image.values, image.size));
+    verdict::judge(&mut fit, image, known, modes.len(), models.level(image));
     Ok(fit)
 }
 

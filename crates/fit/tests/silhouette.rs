@@ -79,7 +79,7 @@ const POWER: &str = "model = 'power-law'\nindex = 2\ninner = 'isco'\nouter = 12"
 fn experiment() {
     let size = std::env::var("SIZE").map_or(96, |s| s.parse().unwrap());
     let text = scene(0.8, 60.0, 20.0, if std::env::var("PT").is_ok() { PAGE } else { POWER }, size, 28.0 / size as f64, 1000.0);
-    for (tone, exposure) in [(Tone::None, 0.0), (Tone::Neutral, 3.0), (Tone::Filmic, 1.0)] {
+    for (tone, exposure) in [(Tone::None, 0.0), (Tone::Neutral, 1.5), (Tone::Filmic, 1.0)] {
         let start = std::time::Instant::now();
         let image = photo(&text, tone, exposure);
         let peak = image.values.iter().copied().fold(0.0, f64::max);
@@ -118,6 +118,50 @@ fn derivatives_are_differences() {
                 .sqrt();
             println!("{k} {size:.4} {:.2e}", error / size);
             assert!(error < 0.01 * size, "{k}: {error} of {size}");
+        }
+    }
+}
+
+#[test]
+#[ignore]
+fn diagnose() {
+    let size: usize = std::env::var("SIZE").map_or(96, |s| s.parse().unwrap());
+    for (tone, exposure) in [(Tone::None, -2.0), (Tone::None, 0.0), (Tone::Neutral, 3.0), (Tone::Filmic, 1.0)] {
+        let text = scene(0.8, 60.0, 20.0, if std::env::var("PT").is_ok() { PAGE } else { POWER }, size, 28.0 / size as f64, 1000.0);
+        let image = photo(&text, tone, exposure);
+        let seen = Silhouette::of(&image).unwrap();
+        let models = Silhouettes::new(&seen, Choice { name: Name::Silhouette, ..Choice::default() });
+        let truth = [0.8, 60.0, 340.0, 28.0 / size as f64, 0.0, 0.0, 1000.0, 1.0, 12.0, 0.0];
+        let model = models.source(2).draw(&truth, seen.image.size, false).unwrap().values;
+        println!("== {tone:?} {exposure} doubtful {:.3} of {}", seen.doubtful, seen.edges);
+        let pattern = &seen.noise.unknown.as_ref().unwrap().pattern;
+        let [w, h] = seen.image.size;
+        let mut groups = std::collections::BTreeMap::<String, Vec<(f64, f64)>>::new();
+        for p in 0..model.len() {
+            let r = seen.image.values[p] - model[p];
+            let (x, y) = ((p % w) as f64 + 0.5 - 0.5 * w as f64, (p / w) as f64 + 0.5 - 0.5 * h as f64);
+            let rad = x.hypot(y) / size as f64 * 28.0;
+            let side = if x < 0.0 { "left" } else { "right" };
+            let zone = if rad > 6.8 { "outer" } else { "inner" };
+            let kind = if seen.noise.known[p] > 1.0 { "unknown".to_owned() } else if pattern[p] > 0.5 { format!("edge {zone} {side}") } else if pattern[p] > 0.0 { format!("beside {zone}") } else { "plain".to_owned() };
+            groups.entry(kind).or_default().push((r, model[p]));
+        }
+        for (kind, v) in &groups {
+            let n = v.len() as f64;
+            let mean = v.iter().map(|r| r.0).sum::<f64>() / n;
+            let rms = (v.iter().map(|r| r.0 * r.0).sum::<f64>() / n).sqrt();
+            let worst = v.iter().fold(0.0_f64, |m, r| m.max(r.0.abs()));
+            println!("{kind:20} n {n:5} mean {mean:+.4} rms {rms:.4} worst {worst:.3}");
+        }
+        if std::env::var("MAP").is_ok() {
+            for y in 0..h {
+                let line: String = (0..w).map(|x| {
+                    let p = y * w + x;
+                    let r = seen.image.values[p] - model[p];
+                    if seen.noise.known[p] > 1.0 { '?' } else if r > 0.3 { 'P' } else if r > 0.1 { 'p' } else if r < -0.3 { 'M' } else if r < -0.1 { 'm' } else if pattern[p] > 0.5 { ':' } else if model[p] > 0.5 { '#' } else { ' ' }
+                }).collect();
+                println!("{line}");
+            }
         }
     }
 }

@@ -11,11 +11,12 @@ const SLANTS: usize = 12;
 const DISTANCES: usize = 96;
 
 /// Pixels of about the same level, at least, and levels at most.
-const ENOUGH: usize = 80;
+const ENOUGH: usize = 100;
 const LEVELS: usize = 4;
 
-/// The least and the largest K.
-const RANGE: [f64; 2] = [0.05, 200.0];
+/// The least and the largest K: the least that of a curve that goes with the square next to black. With less, pixels that are hardly
+/// covered would be dark, and the mean would grow again.
+const RANGE: [f64; 2] = [0.3, 200.0];
 
 /// K by levels.
 #[derive(Clone, Debug)]

@@ -9,8 +9,14 @@ const GRADUAL: f64 = 1.3;
 /// Light that falls below this there is a narrow arc, whose own level is never seen.
 const NARROW: f64 = 0.6;
 
+/// Light below this share of that on both sides.
+const DIP: f64 = 0.85;
+
 /// The light beside an edge is this many times the faintest that is lit, at least.
-const CLEAR: f64 = 8.0;
+pub const CLEAR: f64 = 14.0;
+
+/// Light is seen across a gap that is as narrow as this, pixels.
+const GAP: [f64; 2] = [2.0, 3.0];
 
 /// Pixels within which light that begins gradually has become bright, at most.
 const FARTHEST: usize = 6;
@@ -60,13 +66,31 @@ pub fn look(image: &Image, levels: &Levels, region: &Region, pixel: usize) -> Pl
         let bright = (1..FARTHEST).find(|step| at(*step as f64) > 4.0 * levels.faint).unwrap_or(FARTHEST);
         return Place::Doubtful { reach: bright + 1 };
     }
-    if far < NARROW * near || own > 1.1 * near.max(far) {
+    if far < NARROW * near || GAP.iter().any(|step| at(-step) > levels.faint) || own > 1.1 * near.max(far) {
         return Place::Doubtful { reach: 2 };
     }
     // The part of the pixel that is lit lies about a quarter of a pixel farther in than its middle.
     let level = near - 1.25 * (far - near);
     let (long, short) = if x.abs() > y.abs() { (x.abs(), y.abs()) } else { (y.abs(), x.abs()) };
     Place::Sharp(Sharp { share: own / level, level, faint: levels.faint / level, slant: short.atan2(long) })
+}
+
+/// Whether a lit pixel is darker than those on both sides of it, as one with a gap is that is narrower than itself.
+pub fn dips(image: &Image, levels: &Levels, pixel: usize) -> bool {
+    let [width, height] = image.size;
+    let (column, row) = (pixel % width, pixel / width);
+    if column < 2 || row < 2 || column + 2 >= width || row + 2 >= height {
+        return false;
+    }
+    let own = image.values[pixel] - levels.sky;
+    [(2, 0), (0, 2), (2, 2), (2, -2)].iter().any(|(x, y): &(isize, isize)| {
+        let at = |sign: isize| {
+            let row = row.saturating_add_signed(sign * y);
+            image.values[row * width + column.saturating_add_signed(sign * x)] - levels.sky
+        };
+        let least = at(1).min(at(-1));
+        least > CLEAR * levels.faint && own < DIP * least
+    })
 }
 
 /// The direction in which most of what is lit lies, within three pixels; none where it lies all around.

@@ -4,7 +4,7 @@ use crate::fit::Image;
 use crate::noise;
 
 /// What part of the light's level counts as lit: next to nothing, as one side of a disk is dim.
-const FAINT: f64 = 2e-3;
+const FAINT: f64 = 1e-3;
 
 /// Standard deviations of the noise above the sky.
 const CLEAR: f64 = 6.0;

@@ -12,7 +12,7 @@
 //!
 //! From brightness v to shares c ([`Silhouette::of`]):
 //!
-//! - Lit is what is above the sky by 0.2 % of the light, or six standard deviations of the noise; specks are left out ([`lit`]).
+//! - Lit is what is above the sky by 0.1 % of the light, or six standard deviations of the noise; specks are left out ([`lit`]).
 //! - Pixels next to dark ones are at an edge. Their light is compared with that on the lit side, one to three pixels farther in,
 //!   so that the dim side of a disk is lit as the bright one is ([`edge`]).
 //! - y = v/v_lit would be c in linear light. A tone curve bends that: c = y/(K + (1 − K) y), K above 1 for a curve that flattens out, with
@@ -21,18 +21,21 @@
 //! - Where light begins gradually, as at the inner edge of a disk with the flux of Page & Thorne, or in arcs thinner than two pixels, there is
 //!   no edge whose place can be told: such pixels count nothing.
 //!
-//! The size of the errors is found from the residuals of the pixels at edges, and of these alone: the others would make it small.
+//! The size of the errors is found from the residuals of the pixels at edges, and of these alone: the others would make it small. Residuals
+//! of neighbours go together where a tone curve or a wrong model moves a whole stretch of an edge: then there are fewer independent
+//! ones, and errors are larger ([`misfit`]).
 
 mod bend;
 mod edge;
 mod lit;
+mod misfit;
 mod model;
 mod start;
 
 pub use bend::bent;
 pub use model::Silhouettes;
 
-use edge::{Place, look};
+use edge::{Place, dips, look};
 use lit::{Levels, Region};
 
 use crate::fit::{FitError, Image, check};
@@ -107,10 +110,14 @@ impl Silhouette {
         let mut pattern = vec![0.0; shares.len()];
         let (mut sharp, mut doubtful) = (Vec::new(), 0_usize);
         for pixel in (0..shares.len()).filter(|pixel| region.lit[*pixel]) {
-            if !near(pixel).any(|other| !region.lit[other]) {
+            let place = if near(pixel).any(|other| !region.lit[other]) {
+                look(image, &levels, &region, pixel)
+            } else if dips(image, &levels, pixel) {
+                Place::Doubtful { reach: 1 }
+            } else {
                 continue;
-            }
-            match look(image, &levels, &region, pixel) {
+            };
+            match place {
                 Place::Sharp(found) => sharp.push((pixel, found)),
                 Place::Doubtful { reach } => {
                     doubtful += 1;

@@ -1,11 +1,15 @@
 //! The disks that a silhouette is compared with.
 
+use super::misfit::grouped;
 use super::{Silhouette, start};
 use crate::fit::{Image, Models};
 use crate::likelihood::Noise;
 use crate::model::{Freedom, Source};
 use crate::models::Choice;
 use crate::traced::{Lit, Outline};
+
+/// A silhouette whose edges are off by no more than this, pixels, is that of a disk as well as such pictures tell.
+const TOLERATED: f64 = 0.25;
 
 /// Disks that are lit evenly, on the squares of pixels of a silhouette.
 #[derive(Clone, Debug)]
@@ -38,5 +42,16 @@ impl Models for Silhouettes<'_> {
 
     fn noise(&self, _: &Image, _: Option<f64>) -> Noise {
         self.seen.noise.clone()
+    }
+
+    fn revised(&self, image: &Image, best: &[f64], size: f64) -> Option<Noise> {
+        let residuals: Vec<f64> = image.values.iter().zip(best).map(|(d, m)| d - m).collect();
+        Some(grouped(&self.seen.noise, image.size, &residuals, size))
+    }
+
+    fn level(&self, image: &Image) -> f64 {
+        let pattern = self.seen.noise.unknown.as_ref().map_or(&[][..], |unknown| &unknown.pattern);
+        let square: f64 = pattern.iter().map(|p| p * p).sum();
+        TOLERATED * (square / image.values.len() as f64).sqrt()
     }
 }
