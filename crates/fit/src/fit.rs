@@ -140,8 +140,8 @@ pub trait Models: Sync {
         noise::assume(&image.values, image.size, known)
     }
 
-    /// What the best picture tells of the errors, where their size is the factor s: none if nothing new.
-    fn revised(&self, _image: &Image, _best: &[f64], _size: f64) -> Option<Noise> {
+    /// What the best picture tells of the errors: none if nothing new.
+    fn revised(&self, _image: &Image, _best: &[f64]) -> Option<Noise> {
         None
     }
 
@@ -177,8 +177,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let (mut modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
     let values = &modes[0].evaluation.values;
     let best = model.predict(&values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
-    let size = values.get(model.parameters().len()).copied().unwrap_or(1.0);
-    let revised = models.revised(image, &best.values, size);
+    let revised = models.revised(image, &best.values);
     let assumed = revised.as_ref().unwrap_or(&assumed);
     let posterior =
         Posterior { model: &model, data: &image.values, noise: assumed, coordinates: &coordinates };

@@ -12,9 +12,6 @@ const NARROW: f64 = 0.6;
 /// Light below this share of that on both sides.
 const DIP: f64 = 0.85;
 
-/// The light beside an edge is this many times the faintest that is lit, at least.
-pub const CLEAR: f64 = 14.0;
-
 /// Light is seen across a gap that is as narrow as this, pixels.
 const GAP: [f64; 2] = [2.0, 3.0];
 
@@ -61,7 +58,7 @@ pub fn look(image: &Image, levels: &Levels, region: &Region, pixel: usize) -> Pl
     };
     let own = image.values[pixel] - levels.sky;
     let (near, far) = (at(1.5), at(2.5));
-    if near < CLEAR * levels.faint || far < CLEAR * levels.faint || far > GRADUAL * near {
+    if near < levels.clear || far < levels.clear || far > GRADUAL * near {
         // What would be an edge if four times as much light were faint lies as much farther in.
         let bright = (1..FARTHEST).find(|step| at(*step as f64) > 4.0 * levels.faint).unwrap_or(FARTHEST);
         return Place::Doubtful { reach: bright + 1 };
@@ -89,7 +86,7 @@ pub fn dips(image: &Image, levels: &Levels, pixel: usize) -> bool {
             image.values[row * width + column.saturating_add_signed(sign * x)] - levels.sky
         };
         let least = at(1).min(at(-1));
-        least > CLEAR * levels.faint && own < DIP * least
+        least > levels.clear && own < DIP * least
     })
 }
 

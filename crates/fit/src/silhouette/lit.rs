@@ -7,7 +7,13 @@ use crate::noise;
 const FAINT: f64 = 1e-3;
 
 /// Standard deviations of the noise above the sky.
-const CLEAR: f64 = 6.0;
+const ABOVE: f64 = 6.0;
+
+/// Light that is plain to see, in units of what lit begins with for want of brightness, and for whatever reason.
+const CLEAR: (f64, f64) = (14.0, 4.0);
+
+/// What part of the light's level is dark for sure.
+const DARK: f64 = 0.05;
 
 /// A region smaller than this share of the largest is a speck, and so is one of fewer pixels.
 const SPECK: (f64, usize) = (5e-3, 6);
@@ -19,6 +25,8 @@ pub struct Levels {
     pub sky: f64,
     /// How much above it lit begins.
     pub faint: f64,
+    /// How much above it light is that is plain to see.
+    pub clear: f64,
 }
 
 impl Levels {
@@ -27,19 +35,43 @@ impl Levels {
         let mut sorted = image.values.clone();
         sorted.sort_by(f64::total_cmp);
         let at = |share: f64| sorted[((sorted.len() - 1) as f64 * share) as usize];
-        let noise = noise::estimate(&image.values, image.size);
-        let (sky, light) = (at(0.005) + 2.6 * noise, at(0.995));
-        let faint = (FAINT * (light - sky)).max(CLEAR * noise);
+        let (darkest, light) = (at(0.005), at(0.995));
+        let noise = dark_noise(image, darkest + DARK * (light - darkest));
+        let sky = darkest + 2.6 * noise;
+        let faint = (FAINT * (light - sky)).max(ABOVE * noise);
+        let clear = (CLEAR.0 * FAINT * (light - sky)).max(CLEAR.1 * faint);
         if !(light - sky > 4.0 * faint) {
             return Err("no light stands out of the picture's noise: it has no silhouette".to_owned());
         }
-        Ok(Self { sky, faint })
+        Ok(Self { sky, faint, clear })
     }
 
     /// Whether a brightness is lit.
     pub fn lit(&self, value: f64) -> bool {
         value - self.sky > self.faint
     }
+}
+
+/// The standard deviation of the noise where a picture is darker than a level, as `noise::estimate` finds that of all of it: the steps of
+/// eight bits are small there, and edges are not there.
+fn dark_noise(image: &Image, level: f64) -> f64 {
+    let [width, height] = image.size;
+    let mut differences = Vec::new();
+    for row in 1..height - 1 {
+        for column in 1..width - 1 {
+            let at = |x: usize, y: usize| image.values[(row + y - 1) * width + column + x - 1];
+            if (0..9).all(|k| at(k % 3, k / 3) < level) {
+                let corners = at(0, 0) + at(2, 0) + at(0, 2) + at(2, 2);
+                let sides = at(1, 0) + at(0, 1) + at(2, 1) + at(1, 2);
+                differences.push((corners - 2.0 * sides + 4.0 * at(1, 1)).abs() / 6.0);
+            }
+        }
+    }
+    if differences.len() < 50 {
+        return noise::estimate(&image.values, image.size);
+    }
+    differences.sort_by(f64::total_cmp);
+    differences[differences.len() / 2] / 0.674_489_75
 }
 
 /// What is lit.

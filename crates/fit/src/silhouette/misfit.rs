@@ -5,16 +5,28 @@ use crate::likelihood::Noise;
 /// Pixels within which residuals are taken to go together, if at all: stretches of an edge.
 const WITHIN: usize = 10;
 
-/// The noise of pixels that are independent of each other and tell as much as those of a silhouette: its residuals, of the size s, make
-/// groups of τ pixels,
+/// A pixel has an edge if its share is no closer to none or all.
+const EDGE: f64 = 0.02;
+
+/// The noise of pixels that are independent of each other and tell as much as those of a silhouette. Its size s is that of the residuals
+/// where edges of the `best` model are, without the pixels beside them, which hardly err; and residuals make groups of τ pixels,
 ///
 /// ```text
 /// τ = Σ r_i r_j/Σ r_i²   over pairs at edges no farther apart than a stretch,
 /// ```
 ///
 /// so that variances are τ times as large.
-pub fn grouped(noise: &Noise, [width, height]: [usize; 2], residuals: &[f64], size: f64) -> Noise {
+pub fn grouped(noise: &Noise, [width, height]: [usize; 2], data: &[f64], best: &[f64]) -> Noise {
     let Some(unknown) = &noise.unknown else { return noise.clone() };
+    let residuals: Vec<f64> = data.iter().zip(best).map(|(d, m)| d - m).collect();
+    let (mut sum, mut count) = (0.0, 0.0);
+    for pixel in 0..residuals.len() {
+        let pattern = unknown.pattern[pixel];
+        if pattern > 0.0 && noise.known[pixel] < 1.0 && best[pixel] > EDGE && best[pixel] < 1.0 - EDGE {
+            (sum, count) = (sum + (residuals[pixel] / pattern).powi(2), count + 1.0);
+        }
+    }
+    let size = if count > 0.0 { f64::sqrt(sum / count) } else { unknown.guess };
     // In their own standard deviations.
     let pulls: Vec<f64> = residuals
         .iter()
@@ -59,8 +71,8 @@ mod tests {
         let noise = Noise { known: vec![0.0; 2000], unknown: Some(unknown) };
         let sign = |k: usize| if (k.wrapping_mul(2_654_435_761) >> 13) % 2 == 0 { 1.0 } else { -1.0 };
         let variance = |group: usize| {
-            let residuals: Vec<f64> = (0..2000).map(|k| sign(k / group + 7)).collect();
-            grouped(&noise, size, &residuals, 1.0).known[0].powi(2)
+            let data: Vec<f64> = (0..2000).map(|k| 0.5 + sign(k / group + 7)).collect();
+            grouped(&noise, size, &data, &[0.5; 2000]).known[0].powi(2)
         };
         assert!((1.0..1.6).contains(&variance(1)), "{}", variance(1));
         assert!((3.5..6.0).contains(&variance(5)), "{}", variance(5));

@@ -50,7 +50,7 @@ const PLAIN: f64 = 0.05;
 const GUESS: f64 = 0.05;
 
 /// The error of the share of a pixel beside one at an edge, of that one's.
-const BESIDE: f64 = 0.12;
+const BESIDE: f64 = 0.25;
 
 /// The error of what is not known.
 const UNKNOWN: f64 = 1e3;
@@ -146,9 +146,7 @@ impl Silhouette {
             }
         }
         for (pixel, _) in &sharp {
-            if shares[*pixel] < 1.0 {
-                pattern[*pixel] = 1.0;
-            }
+            pattern[*pixel] = 1.0;
         }
         let (image, noise, bins) = binned(image, &shares, &known, &pattern);
         Ok(Self { image, noise, bins, open: region.open, doubtful: doubtful as f64 / edges as f64, edges })

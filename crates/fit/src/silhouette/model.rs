@@ -44,9 +44,8 @@ impl Models for Silhouettes<'_> {
         self.seen.noise.clone()
     }
 
-    fn revised(&self, image: &Image, best: &[f64], size: f64) -> Option<Noise> {
-        let residuals: Vec<f64> = image.values.iter().zip(best).map(|(d, m)| d - m).collect();
-        Some(grouped(&self.seen.noise, image.size, &residuals, size))
+    fn revised(&self, image: &Image, best: &[f64]) -> Option<Noise> {
+        Some(grouped(&self.seen.noise, image.size, &image.values, best))
     }
 
     fn level(&self, image: &Image) -> f64 {
