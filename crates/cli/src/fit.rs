@@ -39,6 +39,10 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
+    With --silhouette only what is lit counts, not how brightly: for screenshots and other pictures that a tone curve was applied to.\n\
+    `inner` is then 0 at the horizon and 1 at the last stable orbit, `outer` is free if the disk ends within the picture, and `tone` is\n\
+    what the curve does to pixels at edges. Edges where light begins gradually are left out. Pictures of one image order, as the\n\
+    thesis's, need --orders 1 (exactly edge-on 2: both faces are seen there).\n\n\
     With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
@@ -140,7 +144,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     };
     let whole = image;
     let wrong = |error: FitError| Failure::Input(format!("{}: {error}", arguments.image.display()));
-    let seen = (choice.name == Name::Silhouette).then(|| Silhouette::of(&whole)).transpose().map_err(wrong)?;
+    let seen =
+        (choice.name == Name::Silhouette).then(|| Silhouette::of(&whole)).transpose().map_err(wrong)?;
     let silhouettes = seen.as_ref().map(|seen| Silhouettes::new(seen, choice));
     let (image, models): (&Image, &dyn Models) = match (&seen, &silhouettes) {
         (Some(seen), Some(models)) => (&seen.image, models),

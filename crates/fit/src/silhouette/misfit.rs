@@ -12,10 +12,12 @@ const EDGE: f64 = 0.02;
 /// where edges of the `best` model are, without the pixels beside them, which hardly err; and residuals make groups of τ pixels,
 ///
 /// ```text
-/// τ = Σ r_i r_j/Σ r_i²   over pairs at edges no farther apart than a stretch,
+/// τ = Σ r_i r_j/Σ r_i² + 1/(12 s²)   over pairs at edges no farther apart than a stretch,
 /// ```
 ///
-/// so that variances are τ times as large.
+/// so that variances are τ times as large. The last term is of the bend of the tone curve: it makes the mean share of n pixels of about the
+/// same brightness what is expected, which shares that are spread evenly from 0 to 1 have to 1/√(12 n), and all n err by that
+/// together: n (1/√(12 n))²/s².
 pub fn grouped(noise: &Noise, [width, height]: [usize; 2], data: &[f64], best: &[f64]) -> Noise {
     let Some(unknown) = &noise.unknown else { return noise.clone() };
     let residuals: Vec<f64> = data.iter().zip(best).map(|(d, m)| d - m).collect();
@@ -46,7 +48,8 @@ pub fn grouped(noise: &Noise, [width, height]: [usize; 2], data: &[f64], best: &
             }
         }
     }
-    let together = if squares > 0.0 { (pairs / squares).max(1.0) } else { 1.0 };
+    let bend = 1.0 / (12.0 * (size * size).max(1e-6));
+    let together = bend + if squares > 0.0 { (pairs / squares).max(1.0) } else { 1.0 };
     let known = unknown
         .pattern
         .iter()
@@ -71,6 +74,7 @@ mod tests {
         let noise = Noise { known: vec![0.0; 2000], unknown: Some(unknown) };
         let sign = |k: usize| if (k.wrapping_mul(2_654_435_761) >> 13) % 2 == 0 { 1.0 } else { -1.0 };
         let variance = |group: usize| {
+            // Large ones, beside which the bend is nothing.
             let data: Vec<f64> = (0..2000).map(|k| 0.5 + sign(k / group + 7)).collect();
             grouped(&noise, size, &data, &[0.5; 2000]).known[0].powi(2)
         };

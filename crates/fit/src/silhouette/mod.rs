@@ -190,13 +190,17 @@ fn binned(image: &Image, shares: &[f64], known: &[f64], pattern: &[f64]) -> (Ima
             squares.values.push(sum / area);
             patterns.push(square.sqrt() / area);
             let plain = worst < UNKNOWN && edges == 0.0;
-            errors.push(if plain { PLAIN } else if worst < UNKNOWN { PAINTED } else { UNKNOWN });
+            errors.push(if plain {
+                PLAIN
+            } else if worst < UNKNOWN {
+                PAINTED
+            } else {
+                UNKNOWN
+            });
         }
     }
-    let shift = [
-        0.5 * ((size[0] * factor) as f64 - width as f64),
-        0.5 * (height as f64 - (size[1] * factor) as f64),
-    ];
+    let shift =
+        [0.5 * ((size[0] * factor) as f64 - width as f64), 0.5 * (height as f64 - (size[1] * factor) as f64)];
     let unknown = Unknown { pattern: patterns, guess: GUESS, spread: f64::INFINITY };
     let noise = Noise { known: errors, unknown: Some(unknown) };
     (squares, noise, Bins { factor: factor as f64, shift })

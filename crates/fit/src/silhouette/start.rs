@@ -13,12 +13,7 @@ const WIDTHS: (f64, f64, i32) = (12.0, 1.35, 9);
 const STRETCHES: [f64; 3] = [0.9, 1.0, 1.12];
 
 /// All parameters of a disk's silhouette, the likeliest first. `freedoms` are theirs: what is known is kept.
-pub fn find(
-    image: &Image,
-    outline: &Outline,
-    projection: Projection,
-    freedoms: &[Freedom],
-) -> Vec<Vec<f64>> {
+pub fn find(image: &Image, outline: &Outline, projection: Projection, freedoms: &[Freedom]) -> Vec<Vec<f64>> {
     let known = |k: usize, usual: &[f64]| match freedoms.get(k) {
         Some(Freedom::Fixed(value)) => vec![*value],
         _ => usual.to_vec(),
@@ -47,12 +42,7 @@ pub fn find(
                         inner,
                         outer: *outer,
                         profile: Profile::Even,
-                        frame: Frame {
-                            size: image.size,
-                            scale: 1.0,
-                            center: [0.0; 2],
-                            position_angle: 0.0,
-                        },
+                        frame: Frame { size: image.size, scale: 1.0, center: [0.0; 2], position_angle: 0.0 },
                     };
                     templates.push(Template { setting, width });
                 }

@@ -22,7 +22,10 @@ pub struct Outline {
 impl Outline {
     /// So fine, with no more image orders.
     pub fn fineness(&self, fineness: Fineness) -> Fineness {
-        Fineness { orders: self.orders.map_or(fineness.orders, |orders| fineness.orders.min(orders)), ..fineness }
+        Fineness {
+            orders: self.orders.map_or(fineness.orders, |orders| fineness.orders.min(orders)),
+            ..fineness
+        }
     }
 }
 
@@ -82,7 +85,8 @@ impl Source for Lit {
     }
 
     fn draw(&self, values: &[f64], size: [usize; 2], derivatives: bool) -> Result<Prediction, Unpredictable> {
-        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer, tone] = values[..] else {
+        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer, tone] = values[..]
+        else {
             return Err(Unpredictable("as many parameters".to_owned()));
         };
         let Bins { factor, shift } = self.outline.bins;
@@ -115,8 +119,10 @@ impl Source for Lit {
             return Err(Unpredictable("light that is all outside of the picture".to_owned()));
         }
         let bend = tone.exp();
-        let mut prediction =
-            Prediction { values: shares.iter().map(|share| bent(*share, bend)).collect(), derivatives: vec![] };
+        let mut prediction = Prediction {
+            values: shares.iter().map(|share| bent(*share, bend)).collect(),
+            derivatives: vec![],
+        };
         if derivatives {
             let degree = 1f64.to_radians();
             // Channels and factors in the order of the parameters.

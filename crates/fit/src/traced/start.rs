@@ -108,8 +108,11 @@ pub fn among(values: &[f64], size: [usize; 2], painter: &Painter, templates: &[T
                 .draw(&setting, false)
                 .map(|canvas| canvas.pixels().iter().map(|pixel| pixel[0]).collect())
                 .unwrap_or_default();
-            let mut found =
-                if template.is_empty() { Vec::new() } else { alike(&coarse, &template, &setting, *width, size) };
+            let mut found = if template.is_empty() {
+                Vec::new()
+            } else {
+                alike(&coarse, &template, &setting, *width, size)
+            };
             found.iter_mut().for_each(|start: &mut Start| start.template = number);
             found
         })
