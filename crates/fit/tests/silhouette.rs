@@ -6,12 +6,11 @@ use kerrscope::display::{Display, Tone, srgb};
 use kerrscope::light::Light;
 use kerrscope::render::{Stage, Watch, draw};
 use kerrscope::scene::Scene;
-use kerrscope_fit::fit::{Fit, FitError, Image, Models, Options, fit};
+use kerrscope_fit::fit::{FitError, Image, Models};
 use kerrscope_fit::likelihood::Posterior;
 use kerrscope_fit::mode::climb;
 use kerrscope_fit::model::{Freedom, Source};
 use kerrscope_fit::models::{Choice, Name};
-use kerrscope_fit::request::Request;
 use kerrscope_fit::silhouette::{Silhouette, Silhouettes};
 use kerrscope_fit::traced::{Fineness, Lit, Outline, Projection};
 use kerrscope_fit::{Coordinates, Observed};
@@ -28,27 +27,39 @@ fn shown(display: &Display, pixels: &[[f32; 3]], size: [usize; 2]) -> Image {
     Image { values, size, pixel: None }
 }
 
-/// A fit with what is said of parameters, from the likeliest starts.
-fn run(image: &Image, words: &[(&str, &str)]) -> Fit {
+/// The mode near a start, with the noise that it shows: parameters, standard deviations of the coordinates, pulls of the truth in them, and
+/// the share of the variance that is left.
+struct Found {
+    values: Vec<f64>,
+    pulls: Vec<f64>,
+    left: f64,
+}
+
+/// Climbs with the parameters numbered `free` free, the others as in the truth.
+fn climbed(image: &Image, start: &[f64; 10], truth: &[f64; 10], free: &[usize]) -> Found {
     let seen = Silhouette::of(image).unwrap();
     let models = Silhouettes::new(&seen, CHOICE);
     let model = Observed::new(models.source(2), seen.image.size);
-    let request =
-        Request { parameters: words.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect() };
-    let freedoms = request.freedoms(model.parameters()).unwrap();
-    let mut starts = models.starts(&freedoms);
-    starts.truncate(4);
-    let options = Options {
-        freedoms,
-        noise: None,
-        seed: 5,
-        rounds: 3,
-        starts,
-        progress: &|_| {},
-        cancelled: &|| false,
-        keeper: None,
-    };
-    fit(&seen.image, &models, &options).unwrap()
+    let both = model.parameters().iter().zip(truth).enumerate();
+    let freedoms: Vec<Freedom> = both
+        .map(|(k, (p, value))| if free.contains(&k) { p.usual } else { Freedom::Fixed(*value) })
+        .collect();
+    let coordinates = Coordinates::new(model.parameters(), &freedoms, &[1.0; 10]);
+    let (start, goal) = (coordinates.of(start), coordinates.of(truth));
+    let first = models.noise(&seen.image, None);
+    let data = seen.image.values.as_slice();
+    let posterior = Posterior { model: &model, data, noise: &first, coordinates: &coordinates };
+    let mode = climb(&posterior, &[start.as_slice(), &[0.0]].concat(), 60).unwrap();
+    let best = model.predict(&mode.evaluation.values[..10], false).unwrap();
+    let noise = models.revised(&seen.image, &best.values).unwrap();
+    let posterior = Posterior { noise: &noise, ..posterior };
+    let mode = climb(&posterior, &mode.place[..start.len()], 40).unwrap();
+    let covariance = mode.factor.inverse();
+    let pulls = (0..start.len()).map(|k| (mode.place[k] - goal[k]) / covariance[(k, k)].sqrt()).collect();
+    let mean = data.iter().sum::<f64>() / data.len() as f64;
+    let variance: f64 = data.iter().map(|d| (d - mean).powi(2)).sum();
+    let left = data.iter().zip(&best.values).map(|(d, m)| (d - m).powi(2)).sum::<f64>() / variance;
+    Found { values: mode.evaluation.values, pulls, left }
 }
 
 /// Derivatives of what is lit against differences of shares, for an inner edge at the last stable orbit and near the horizon.
@@ -83,7 +94,7 @@ fn derivatives_are_differences() {
 }
 
 /// A disk with a sharp inner edge, brighter on one side by its motion, rendered ray by ray and shown by two tone curves: spin,
-/// inclination, outer radius and scale come back within five of their errors, which are small, and agree.
+/// inclination, outer radius and scale come back within their errors, and close.
 #[test]
 fn tone_curves_do_not_matter() {
     let size = 72_usize;
@@ -99,23 +110,17 @@ fn tone_curves_do_not_matter() {
     );
     let scene = Scene::from_toml(&text, Path::new("")).unwrap();
     let film = draw(&Stage::new(&scene).unwrap(), &Watch::default()).unwrap();
-    let fits = [(Tone::None, 0.0), (Tone::Filmic, 1.0)].map(|(tone, exposure)| {
+    let truth = [0.8, 60.0, 340.0, scale, 0.0, 0.0, 1000.0, 1.0, 12.0, 0.0];
+    let start = [0.6, 56.0, 345.0, 1.03 * scale, 0.5, -0.5, 1000.0, 1.0, 11.5, 0.0];
+    for (tone, exposure) in [(Tone::None, 0.0), (Tone::Filmic, 1.0)] {
         let image = shown(&Display { exposure, tone }, &film.light, [size; 2]);
-        let known = [("position_angle", "normal(340, 2)"), ("inclination", "isotropic(0, 90)")];
-        run(&image, &known)
-    });
-    for (name, truth, small) in
-        [("spin", 0.8, 0.1), ("inclination", 60.0, 1.0), ("scale", scale, 0.02 * scale), ("outer", 12.0, 0.4)]
-    {
-        let [a, b] = fits.each_ref().map(|fit| fit.estimates.iter().find(|e| e.name == name).unwrap());
-        for e in [a, b] {
-            println!("{name} {} ± {}", e.mean, e.sd);
-            assert!((e.mean - truth).abs() < 5.0 * e.sd && e.sd < small, "{e:?}");
+        let found = climbed(&image, &start, &truth, &[0, 1, 2, 3, 4, 5, 8, 9]);
+        println!("{tone:?} {:?} {:?} {}", found.values, found.pulls, found.left);
+        assert!(found.pulls[..7].iter().all(|pull| pull.abs() < 4.0), "{:?}", found.pulls);
+        for (k, close) in [(0, 0.05), (1, 1.0), (3, 0.01 * scale), (8, 0.2)] {
+            assert!((found.values[k] - truth[k]).abs() < close, "{k}: {:?}", found.values);
         }
-        assert!((a.mean - b.mean).abs() < 5.0 * a.sd.hypot(b.sd), "{a:?} {b:?}");
-    }
-    for fit in &fits {
-        assert!(fit.good, "{:?}", fit.warnings);
+        assert!(found.left < 0.02, "{}", found.left);
     }
 }
 
@@ -156,30 +161,9 @@ fn errors_cover_the_truth() {
             })
             .collect();
         let image = shown(&Display { exposure: 0.3 * (case % 4) as f64, tone }, &light, [size; 2]);
-        let seen = Silhouette::of(&image).unwrap();
-        let models = Silhouettes::new(&seen, CHOICE);
-        let model = Observed::new(models.source(2), seen.image.size);
-        let freedoms: Vec<Freedom> = model
-            .parameters()
-            .iter()
-            .zip(truth)
-            .enumerate()
-            .map(|(k, (p, value))| if free.contains(&k) { p.usual } else { Freedom::Fixed(value) })
-            .collect();
-        let coordinates = Coordinates::new(model.parameters(), &freedoms, &[1.0; 10]);
-        let start = coordinates.of(&truth);
-        let first = models.noise(&seen.image, None);
-        let posterior =
-            Posterior { model: &model, data: &seen.image.values, noise: &first, coordinates: &coordinates };
-        let mode = climb(&posterior, &[start.as_slice(), &[0.0]].concat(), 40).unwrap();
-        let best = model.predict(&mode.evaluation.values[..10], false).unwrap();
-        let noise = models.revised(&seen.image, &best.values).unwrap();
-        let posterior = Posterior { noise: &noise, ..posterior };
-        let mode = climb(&posterior, &mode.place[..start.len()], 40).unwrap();
-        // Standard deviations of coordinates: those of spin, both of the axis, and scale come first.
-        let covariance = mode.factor.inverse();
-        for (k, count) in within.iter_mut().enumerate() {
-            let pull = (mode.place[k] - start[k]) / covariance[(k, k)].sqrt();
+        let found = climbed(&image, &truth, &truth, &free);
+        // Coordinates of spin, both of the axis, and scale come first.
+        for (pull, count) in found.pulls.iter().zip(&mut within) {
             *count += usize::from(pull.abs() < 2.0);
             squares += pull * pull / (4 * CASES) as f64;
         }
@@ -209,8 +193,10 @@ fn what_is_no_disk() {
         let ear = |side: f64| y > 4.0 && y < 20.0 - 2.0 * (x * side - 8.0).abs();
         x.hypot(y + 2.0) < 13.0 || ear(1.0) || ear(-1.0)
     });
-    let found = run(&cat, &[("spin", "0"), ("inclination", "isotropic(0, 90)")]);
-    assert!(!found.good && found.warnings[0].starts_with("poor fit"), "{:?}", found.warnings);
+    // More is left of its variance than the verdict allows (5 %).
+    let start = [0.0, 40.0, 0.0, 0.7, 0.0, 0.0, 1000.0, 1.0, 8.0, 0.0];
+    let found = climbed(&cat, &start, &start, &[1, 2, 3, 4, 5, 8, 9]);
+    assert!(found.left > 0.05, "{}", found.left);
     let refused = |image: &Image| Silhouette::of(image).unwrap_err();
     let mut noise = Image { values: Vec::new(), size: [48; 2], pixel: None };
     noise.values = (0..48 * 48).map(|k| (k as f64 * 0.618_033_988_749_895).fract()).collect();
