@@ -199,7 +199,7 @@ fn what_is_no_disk() {
     assert!(found.left > 0.05, "{}", found.left);
     let refused = |image: &Image| Silhouette::of(image).unwrap_err();
     let mut noise = Image { values: Vec::new(), size: [48; 2], pixel: None };
-    noise.values = (0..48 * 48).map(|k| (k as f64 * 0.618_033_988_749_895).fract()).collect();
+    noise.values = (0..48 * 48).map(|k| (f64::from(k) * 0.618_033_988_749_895).fract()).collect();
     assert!(matches!(refused(&noise), FitError::NoSilhouette(_)));
     noise.values[7] = f64::NAN;
     assert_eq!(refused(&noise), FitError::NotFinite { count: 1, column: 7, row: 0 });

@@ -92,20 +92,18 @@ pub fn dips(image: &Image, levels: &Levels, pixel: usize) -> bool {
 
 /// The direction in which most of what is lit lies, within three pixels; none where it lies all around.
 fn inwards(region: &Region, [width, height]: [usize; 2], pixel: usize) -> Option<[f64; 2]> {
-    let (column, row) = ((pixel % width) as i64, (pixel / width) as i64);
+    let (column, row) = (pixel % width, pixel / width);
     let mut sum = [0.0; 2];
-    for y in -3..=3_i64 {
-        for x in -3..=3_i64 {
+    for y in -3..=3_i32 {
+        for x in -3..=3_i32 {
             if x * x + y * y > 10 {
                 continue;
             }
             // Beyond the border it goes on as it is there.
-            let there = [
-                (column + x).clamp(0, width as i64 - 1) as usize,
-                (row + y).clamp(0, height as i64 - 1) as usize,
-            ];
-            if region.lit[there[1] * width + there[0]] {
-                sum = [sum[0] + x as f64, sum[1] + y as f64];
+            let moved =
+                |from: usize, by: i32, size: usize| from.saturating_add_signed(by as isize).min(size - 1);
+            if region.lit[moved(row, y, height) * width + moved(column, x, width)] {
+                sum = [sum[0] + f64::from(x), sum[1] + f64::from(y)];
             }
         }
     }

@@ -71,6 +71,9 @@ pub fn find(image: &Image, outline: &Outline, projection: Projection, freedoms: 
         .collect()
 }
 
+/// Directions in which the longest is looked for.
+const DIRECTIONS: usize = 36;
+
 /// The length of what is lit across its longest direction, pixels.
 fn longest(image: &Image) -> f64 {
     let [width, _] = image.size;
@@ -78,7 +81,6 @@ fn longest(image: &Image) -> f64 {
         .filter(|pixel| image.values[*pixel] > 0.5)
         .map(|pixel| [(pixel % width) as f64, (pixel / width) as f64])
         .collect();
-    const DIRECTIONS: usize = 36;
     (0..DIRECTIONS)
         .map(|k| {
             let (sin, cos) = (std::f64::consts::PI * k as f64 / DIRECTIONS as f64).sin_cos();

@@ -98,6 +98,9 @@ pub struct Painter {
 /// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
 const FAR_X: f64 = 0.02;
 
+/// Steps between which the rows of a disk are spread.
+const GRID: usize = 400;
+
 /// Rows of a disk that is lit evenly.
 const EVEN_ROWS: usize = 6;
 
@@ -210,7 +213,6 @@ impl Painter {
             // What is the same everywhere has edges alone.
             return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
         }
-        const GRID: usize = 400;
         let x = |t: f64| inner + (outer - inner) * t;
         let largest = (0..=GRID).map(|k| matter.flux(x(k as f64 / GRID as f64))[0]).fold(0.0, f64::max);
         let mut sums = vec![0.0];

@@ -113,7 +113,9 @@ pub fn among(values: &[f64], size: [usize; 2], painter: &Painter, templates: &[T
             } else {
                 alike(&coarse, &template, &setting, *width, size)
             };
-            found.iter_mut().for_each(|start: &mut Start| start.template = number);
+            for start in &mut found {
+                start.template = number;
+            }
             found
         })
         .collect();
