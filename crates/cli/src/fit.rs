@@ -17,6 +17,7 @@ use kerrscope_fit::models::{Choice, Name};
 use kerrscope_fit::output::residual::Residual;
 use kerrscope_fit::output::{Record, chain, corner};
 use kerrscope_fit::request::{Request, unknown_model};
+use kerrscope_fit::silhouette::{Silhouette, Silhouettes};
 use kerrscope_fit::summary::Estimate;
 use kerrscope_fit::traced::Projection;
 use serde::Serialize;
@@ -39,6 +40,10 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
+    With --silhouette only what is lit counts, not how brightly: for screenshots and other pictures that a tone curve was applied to.\n\
+    `inner` is then 0 at the horizon and 1 at the last stable orbit, `outer` is free if the disk ends within the picture, and `tone` is\n\
+    what the curve does to pixels at edges. Edges where light begins gradually are left out. Pictures of one image order, as the\n\
+    thesis's, need --orders 1 (exactly edge-on 2: both faces are seen there).\n\n\
     With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
@@ -46,14 +51,21 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     Examples:\n  \
     kerrscope fit disk.fits --distance 100\n  \
     kerrscope fit disk.fits --free blur --prior 'inclination=isotropic(0, 90)' -o disk\n  \
-    kerrscope fit ring.fits --model ring"
+    kerrscope fit ring.fits --model ring\n  \
+    kerrscope fit screenshot.png --silhouette --distance 30 --projection pinhole --fix outer=6"
 )]
 pub struct Arguments {
     /// The picture
     image: PathBuf,
-    /// page-thorne, power-law, thin-power-law or ring
+    /// page-thorne, power-law, thin-power-law, ring or silhouette
     #[arg(long, value_name = "NAME")]
     model: Option<String>,
+    /// Use edges of the light alone, however bright it is: the same as --model silhouette
+    #[arg(long)]
+    silhouette: bool,
+    /// Image orders that a silhouette shows, from the first; all if not given
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=4))]
+    orders: Option<u8>,
     /// r of the observer in M, or inf: the same as --fix distance=R
     #[arg(long, value_name = "R", value_parser = parse_distance)]
     distance: Option<f64>,
@@ -131,17 +143,26 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         pixel: picture.pixel.microarcseconds,
         values: picture.values,
     };
-    let model = Observed::new(choice.source(2), image.size);
+    let whole = image;
+    let wrong = |error: FitError| Failure::Input(format!("{}: {error}", arguments.image.display()));
+    let seen =
+        (choice.name == Name::Silhouette).then(|| Silhouette::of(&whole)).transpose().map_err(wrong)?;
+    let silhouettes = seen.as_ref().map(|seen| Silhouettes::new(seen, choice));
+    let (image, models): (&Image, &dyn Models) = match (&seen, &silhouettes) {
+        (Some(seen), Some(models)) => (&seen.image, models),
+        _ => (&whole, &choice),
+    };
+    let model = Observed::new(models.source(2), image.size);
     let freedoms =
         request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
     let kept = arguments
         .output
         .as_deref()
-        .map(|name| kept(arguments, name, &image, (choice.name, &request)))
+        .map(|name| kept(arguments, name, image, (choice.name, &request)))
         .transpose()?;
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
-    let options = Options {
+    let mut options = Options {
         freedoms,
         noise: arguments.noise,
         seed: arguments.seed,
@@ -156,16 +177,22 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         .num_threads(arguments.threads.map_or(0, NonZeroUsize::get))
         .build()
         .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
-    let found = pool.install(|| fit(&image, &choice, &options));
+    let found = pool.install(|| {
+        if let Some(silhouettes) = &silhouettes {
+            options.starts = silhouettes.starts(&options.freedoms);
+        }
+        fit(image, models, &options)
+    });
     bar.finish_and_clear();
-    let found = found.map_err(|error| match error {
+    let mut found = found.map_err(|error| match error {
         FitError::Cancelled => Failure::Interrupted(match &arguments.output {
             Some(_) => "the same command with --resume goes on".to_owned(),
             None => "nothing was kept: with --output NAME it can be gone on with".to_owned(),
         }),
         FitError::Keeper(fault) => Failure::Failed(fault),
-        wrong => Failure::Input(format!("{}: {wrong}", arguments.image.display())),
+        fault => wrong(fault),
     })?;
+    found.warnings.extend(seen.iter().flat_map(Silhouette::warnings));
     let output = Output {
         model: choice.name.name(),
         parameters: &found.estimates,
@@ -182,7 +209,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         version: env!("CARGO_PKG_VERSION"),
     };
     if let Some(name) = &arguments.output {
-        files(name, &image, &found, &output)?;
+        files(name, image, &found, &output)?;
     }
     if let Some(kept) = kept {
         kept.checkpoint.remove().map_err(|e| Failure::Failed(e.to_string()))?;
@@ -225,6 +252,20 @@ fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
             }
         }
     }
+    if arguments.silhouette {
+        match name.filter(|name| *name != Name::Silhouette) {
+            Some(other) if arguments.model.is_some() => {
+                faults.push(format!("--silhouette is a model, and so is --model {}: give one", other.name()));
+            }
+            _ => name = Some(Name::Silhouette),
+        }
+    }
+    if name != Some(Name::Silhouette) && arguments.orders.is_some() {
+        faults.push("--orders is for silhouettes: give --silhouette too, or leave it away".to_owned());
+    }
+    if name == Some(Name::Silhouette) && arguments.noise.is_some() {
+        faults.push("a silhouette has edges alone, whose error is found: leave --noise away".to_owned());
+    }
     if let Some(noise) = arguments.noise
         && noise <= 0.0
     {
@@ -234,7 +275,8 @@ fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
         Shape::Angular => Projection::Angular,
         Shape::Pinhole => Projection::Pinhole,
     };
-    let choice = Choice { name: name.unwrap_or_default(), projection };
+    let orders = arguments.orders.map(usize::from);
+    let choice = Choice { name: name.unwrap_or_default(), projection, orders };
     if choice.name == Name::Ring && arguments.distance.is_some() {
         faults.push("a ring on the sky has no distance: leave --distance away".to_owned());
     }
@@ -272,8 +314,8 @@ fn kept(
     path.push(".checkpoint");
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
-        "{:?} {:?} {:?} {:?} {:?} {}",
-        image.size, request, model, arguments.projection, arguments.noise, arguments.seed
+        "{:?} {:?} {:?} {:?} {:?} {:?} {}",
+        image.size, request, model, arguments.projection, arguments.orders, arguments.noise, arguments.seed
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
     let path = Path::new(&path);

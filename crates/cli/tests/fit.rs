@@ -70,6 +70,37 @@ fn a_ring_as_json_and_files() {
     assert!(text.contains("diameter") && text.contains("fixed: blur = 0 px"), "{text}");
 }
 
+/// The thesis's figure 5.1 (b), smaller: the inclination of a disk, from its edges in a picture with eight bits.
+#[test]
+fn a_silhouette() {
+    let folder = tempfile::tempdir().unwrap();
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/thesis-5.1b.toml");
+    let drawn = Command::new(env!("CARGO_BIN_EXE_kerrscope"))
+        .args(["render", scene, "-o", "disk.png", "--set", "render.width=100", "--set", "render.height=100"])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert!(drawn.status.success(), "{}", error(&drawn));
+    let known = ["spin=0", "inner=0", "outer=6", "position_angle=0"].map(|known| ["--fix", known]);
+    let mut arguments = vec!["disk.png", "--silhouette", "--orders", "1", "--distance", "30"];
+    arguments.extend(["--projection", "pinhole", "--rounds", "3", "--format", "json"]);
+    arguments.extend(["--prior", "inclination=isotropic(0, 90)"]);
+    arguments.extend(known.iter().flatten());
+    let output = kerrscope(&arguments, folder.path());
+    assert!(output.status.success(), "{}", error(&output));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(found["model"], "silhouette");
+    let at = |name: &str, field: &str| {
+        let parameters = found["parameters"].as_array().unwrap();
+        parameters.iter().find(|p| p["name"] == name).unwrap()[field].as_f64().unwrap()
+    };
+    let scale = 60.0 * 25_f64.to_radians().tan() / 100.0;
+    for (name, truth, small) in [("inclination", 270.0 / 7.0, 0.5), ("scale", scale, 0.01 * scale)] {
+        let (mean, sd) = (at(name, "mean"), at(name, "sd"));
+        assert!((mean - truth).abs() < 5.0 * sd && sd < small, "{name}: {mean} ± {sd}");
+    }
+}
+
 /// Faults of flags, all at once; of pictures, with the reason. Exit code 2.
 #[test]
 fn faults() {
@@ -88,6 +119,11 @@ fn faults() {
         &["Did you mean spin?", "spin is 3", "log-uniform(FROM, TO)"],
     );
     refused(&["ring.png", "--model", "cat", "--noise", "-1"], &["page-thorne", "above 0"]);
+    refused(
+        &["ring.png", "--model", "ring", "--silhouette", "--orders", "2"],
+        &["--silhouette is a model", "--orders is for silhouettes"],
+    );
+    refused(&["ring.png", "--silhouette", "--noise", "0.1"], &["leave --noise away"]);
     refused(&["none.png"], &["none.png"]);
     std::fs::write(folder.path().join("text.png"), "no picture").unwrap();
     refused(&["text.png"], &["text.png"]);

@@ -5,7 +5,7 @@ use thiserror::Error;
 use crate::chains::{CHAINS, Chains, Draws, Field, ROUND};
 use crate::coordinates::Coordinates;
 use crate::likelihood::{Noise, Posterior};
-use crate::mode::Mode;
+use crate::mode::{Mode, climb};
 use crate::model::{Freedom, Prediction, Source};
 use crate::noise;
 use crate::observed::Observed;
@@ -81,6 +81,9 @@ pub enum FitError {
         /// Its row.
         row: usize,
     },
+    /// Nothing of it is lit before something dark, or there are no edges.
+    #[error("{0}")]
+    NoSilhouette(String),
     /// The model has no picture near the data.
     #[error(
         "no parameters were found with which the model has a picture: fix some with --fix, or give priors"
@@ -133,6 +136,21 @@ pub struct Fit {
 pub trait Models: Sync {
     /// The light.
     fn source(&self, fineness: usize) -> Box<dyn Source>;
+
+    /// What is assumed of a picture's errors, the standard deviation of its pixels' noise being known or not.
+    fn noise(&self, image: &Image, known: Option<f64>) -> Noise {
+        noise::assume(&image.values, image.size, known)
+    }
+
+    /// What the best picture tells of the errors: none if nothing new.
+    fn revised(&self, _image: &Image, _best: &[f64]) -> Option<Noise> {
+        None
+    }
+
+    /// Standard deviation of what the model need not explain.
+    fn level(&self, image: &Image) -> f64 {
+        noise::estimate(&image.values, image.size)
+    }
 }
 
 /// Noise above this share of the brightest pixel lets a coarser model do.
@@ -145,7 +163,7 @@ const NOISY: f64 = 0.01;
 pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<Fit, FitError> {
     check(image)?;
     let peak = noise::peak(&image.values);
-    let assumed = noise::assume(&image.values, image.size, options.noise);
+    let assumed = models.noise(image, options.noise);
     let level = options.noise.unwrap_or_else(|| noise::estimate(&image.values, image.size));
     let fineness = if level > NOISY * peak { 1 } else { 2 };
     let model = Observed::new(models.source(fineness), image.size);
@@ -158,7 +176,19 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let posterior =
         Posterior { model: &model, data: &image.values, noise: &assumed, coordinates: &coordinates };
     (options.progress)("looking for modes");
-    let (modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    let (mut modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    let values = &modes[0].evaluation.values;
+    let best = model.predict(&values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
+    let revised = models.revised(image, &best.values);
+    let assumed = revised.as_ref().unwrap_or(&assumed);
+    let posterior =
+        Posterior { model: &model, data: &image.values, noise: assumed, coordinates: &coordinates };
+    if revised.is_some() {
+        let again = |mode: &Mode| climb(&posterior, &mode.place[..posterior.count()], 40);
+        modes = modes.iter().filter_map(again).collect();
+        evaluations += modes.iter().map(|mode| mode.evaluations).sum::<usize>();
+        modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+    }
     let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
     let mut chains = field.begin().ok_or(FitError::NoStart)?;
     let mut all: Vec<Draws> = vec![Draws::default(); CHAINS];
@@ -200,7 +230,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         explained: 0.0,
         evidence: modes[0].evidence(),
         evaluations,
-        errors: errors(&assumed, &modes[0].evaluation.values),
+        errors: errors(assumed, &modes[0].evaluation.values),
         best,
         draws: values
             .iter()
@@ -211,12 +241,12 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         diverged: all.iter().map(|draws| draws.diverged).sum(),
     };
     let known = (model.parameters(), options.freedoms.as_slice());
-    let pixel_noise = noise::estimate(&image.values, image.size);
-    verdict::judge(&mut fit, image, known, modes.len(), (pixel_noise, options.aim));
+    verdict::judge(&mut fit, image, known, modes.len(), (models.level(image), options.aim));
     Ok(fit)
 }
 
-fn check(image: &Image) -> Result<(), FitError> {
+/// Whether there is something to fit.
+pub(crate) fn check(image: &Image) -> Result<(), FitError> {
     let [width, height] = image.size;
     if width < 8 || height < 8 {
         return Err(FitError::Small(width, height));

@@ -18,6 +18,7 @@ mod reduce;
 pub mod request;
 mod ring;
 mod search;
+pub mod silhouette;
 pub mod summary;
 pub mod traced;
 mod verdict;

@@ -57,6 +57,11 @@ pub trait Source: Sync {
 
     /// Parameters of which one may be near those of a picture, the likeliest first.
     fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>>;
+
+    /// Whether its picture is compared as it is, without blur, flux and background.
+    fn finished(&self) -> bool {
+        false
+    }
 }
 
 impl<S: Source + ?Sized> Source for Box<S> {
@@ -70,5 +75,9 @@ impl<S: Source + ?Sized> Source for Box<S> {
 
     fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>> {
         (**self).starts(values, size)
+    }
+
+    fn finished(&self) -> bool {
+        (**self).finished()
     }
 }

@@ -3,7 +3,7 @@
 use crate::fit::Models;
 use crate::model::Source;
 use crate::ring::Ring;
-use crate::traced::{Disk, Fineness, Kind, Projection};
+use crate::traced::{Disk, Fineness, Kind, Lit, Outline, Projection};
 
 /// A model by its name.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -17,11 +17,14 @@ pub enum Name {
     ThinPowerLaw,
     /// A ring on the sky, brighter on one side, blurred.
     Ring,
+    /// What is lit of a thin disk, however bright.
+    Silhouette,
 }
 
 impl Name {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::PageThorne, Self::PowerLaw, Self::ThinPowerLaw, Self::Ring];
+    pub const ALL: [Self; 5] =
+        [Self::PageThorne, Self::PowerLaw, Self::ThinPowerLaw, Self::Ring, Self::Silhouette];
 
     /// As it is written.
     pub const fn name(self) -> &'static str {
@@ -30,6 +33,7 @@ impl Name {
             Self::PowerLaw => "power-law",
             Self::ThinPowerLaw => "thin-power-law",
             Self::Ring => "ring",
+            Self::Silhouette => "silhouette",
         }
     }
 
@@ -46,21 +50,34 @@ pub struct Choice {
     pub name: Name,
     /// How directions become places.
     pub projection: Projection,
+    /// Image orders that a silhouette shows; all if not said.
+    pub orders: Option<usize>,
+}
+
+impl Choice {
+    /// How finely pictures are drawn, from 0 to 2.
+    pub(crate) fn fineness(fineness: usize) -> Fineness {
+        match fineness {
+            0 => Fineness::SKETCH,
+            1 => Fineness::MEDIUM,
+            _ => Fineness::default(),
+        }
+    }
 }
 
 impl Models for Choice {
     fn source(&self, fineness: usize) -> Box<dyn Source> {
-        let fineness = match fineness {
-            0 => Fineness::SKETCH,
-            1 => Fineness::MEDIUM,
-            _ => Fineness::default(),
-        };
+        let fineness = Self::fineness(fineness);
         let disk = |kind, opaque| Box::new(Disk::new(kind, opaque, self.projection, fineness));
         match self.name {
             Name::PageThorne => disk(Kind::PageThorne, true),
             Name::PowerLaw => disk(Kind::PowerLaw, true),
             Name::ThinPowerLaw => disk(Kind::PowerLaw, false),
             Name::Ring => Box::new(Ring),
+            Name::Silhouette => {
+                let outline = Outline { orders: self.orders, ..Outline::default() };
+                Box::new(Lit::new(outline, self.projection, fineness))
+            }
         }
     }
 }

@@ -22,7 +22,9 @@ impl<S: Source> Observed<S> {
     /// Of a width and a height in pixels.
     pub fn new(source: S, size: [usize; 2]) -> Self {
         let mut parameters = source.parameters();
-        parameters.extend(common(size));
+        if !source.finished() {
+            parameters.extend(common(size));
+        }
         Self { source, size, parameters }
     }
 
@@ -31,7 +33,7 @@ impl<S: Source> Observed<S> {
         &self.source
     }
 
-    /// Those of the light, then `blur`, `flux` and `background`.
+    /// Those of the light, then `blur`, `flux` and `background`, unless the source is finished.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
     }
@@ -46,6 +48,9 @@ impl<S: Source> Observed<S> {
     /// # Errors
     /// If there is none.
     pub fn predict(&self, values: &[f64], derivatives: bool) -> Result<Prediction, Unpredictable> {
+        if self.source.finished() {
+            return self.source.draw(values, self.size, derivatives);
+        }
         let (own, common) = values.split_at(values.len() - COMMON);
         let [width, flux, background] = [common[0], common[1], common[2]];
         let margin = Kernel::margin(width);

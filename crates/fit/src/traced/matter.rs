@@ -12,6 +12,8 @@ pub enum Profile {
         /// q.
         index: f64,
     },
+    /// The brightness that is seen is 1 everywhere, whatever moves how.
+    Even,
 }
 
 /// I = g⁴ F and its derivatives.
@@ -71,6 +73,7 @@ impl Matter {
     pub fn flux(&self, x: f64) -> [f64; 4] {
         let r = x.powi(-2);
         match self.profile {
+            Profile::Even => [1.0, 0.0, 0.0, 0.0],
             Profile::PowerLaw { index } => {
                 let flux = r.powf(-index);
                 [flux, -index * flux / r, 0.0, -r.ln() * flux]
@@ -96,6 +99,9 @@ impl Matter {
     /// g = N/[(1 + a r^{−3/2})(1 − Ωλ)],   N² = 1 − 3/r + 2a r^{−3/2},   Ω = 1/(r^{3/2} + a).
     /// ```
     pub fn glow(&self, x: f64, lambda: f64) -> Glow {
+        if self.profile == Profile::Even {
+            return Glow { value: 1.0, ..Glow::default() };
+        }
         let (x3, a) = (x * x * x, self.spin);
         let square = 1.0 - 3.0 * x * x + 2.0 * a * x3;
         let drag = 1.0 + a * x3;
@@ -120,6 +126,11 @@ impl Matter {
             spin: 4.0 * value * (x3 / square - x3 / drag - per_rate * turn) + beamed * by_spin,
             index: beamed * by_index,
         }
+    }
+
+    /// Whether all of it is equally bright.
+    pub fn even(&self) -> bool {
+        self.profile == Profile::Even
     }
 
     /// A length over which the flux bends, M: √(F_max/|F″|) for the largest flux between both ends of the table.
@@ -151,6 +162,7 @@ mod tests {
                 let flux = match profile {
                     Profile::PageThorne => matter.flux(r),
                     Profile::PowerLaw { index } => r.powf(-index),
+                    Profile::Even => 1.0,
                 };
                 assert!((glow.value / (g.powi(4) * flux) - 1.0).abs() < 1e-8);
                 let h = 1e-4;

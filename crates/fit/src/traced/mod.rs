@@ -2,6 +2,7 @@
 
 mod canvas;
 mod lines;
+mod lit;
 mod matter;
 mod order;
 mod picture;
@@ -13,7 +14,9 @@ mod start;
 mod strips;
 
 pub use canvas::Canvas;
+pub use lit::{Lit, Outline};
 pub use matter::Profile;
 pub use picture::{DRAWN, Fineness, Painter, Setting, Unseen};
 pub use screen::{Frame, Projection};
 pub use source::{Disk, Kind};
+pub(crate) use start::{Template, among};

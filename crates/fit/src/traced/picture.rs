@@ -28,7 +28,8 @@ pub struct Setting {
     pub inclination: f64,
     /// 1/r of the observer.
     pub u: f64,
-    /// Inner radius in units of the last stable orbit's, 1 at least.
+    /// Inner radius in units of the last stable orbit's, 1 at least; of a disk that is lit evenly, 0 at the horizon and 1 at the last
+    /// stable orbit, straight between them and beyond.
     pub inner: f64,
     /// Outer radius, M; infinite where it lies beyond the picture.
     pub outer: f64,
@@ -97,6 +98,12 @@ pub struct Painter {
 /// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
 const FAR_X: f64 = 0.02;
 
+/// Steps between which the rows of a disk are spread.
+const GRID: usize = 400;
+
+/// Rows of a disk that is lit evenly.
+const EVEN_ROWS: usize = 6;
+
 /// Light that no picture can be made of: some of it does not come from where it should.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Unseen;
@@ -129,12 +136,12 @@ impl Painter {
         let view = View { spin: setting.spin, inclination, u: setting.u };
         let screen =
             Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection);
-        let (isco, isco_rate) = last_stable_orbit(setting.spin);
-        let inner = (isco * setting.inner).powf(-0.5);
+        let (radius, radius_rates) = setting.inner_edge();
+        let inner = radius.powf(-0.5);
         let mut rates = Rates { edges: [Some([0.0; MOVES]), None] };
         if let Some(inner_rates) = &mut rates.edges[0] {
-            inner_rates[0] = -0.5 * inner * isco_rate / isco;
-            inner_rates[HOLE] = -0.5 * inner / setting.inner;
+            inner_rates[0] = -0.5 * inner * radius_rates[0] / radius;
+            inner_rates[HOLE] = -0.5 * inner * radius_rates[1] / radius;
         }
         let bounded = setting.outer * setting.u <= 0.5 && setting.outer.is_finite();
         let outer_x = setting.outer.powf(-0.5);
@@ -202,7 +209,10 @@ impl Painter {
 
     /// t of the rows of the direct image: close where the flux bends.
     fn rows(&self, matter: &Matter, [inner, outer]: [f64; 2]) -> Vec<f64> {
-        const GRID: usize = 400;
+        if matter.even() {
+            // What is the same everywhere has edges alone.
+            return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
+        }
         let x = |t: f64| inner + (outer - inner) * t;
         let largest = (0..=GRID).map(|k| matter.flux(x(k as f64 / GRID as f64))[0]).fold(0.0, f64::max);
         let mut sums = vec![0.0];
@@ -241,6 +251,24 @@ fn thinned(rows: &[f64], order: usize) -> Vec<f64> {
         })
         .collect()
 }
+
+impl Setting {
+    /// Radius of the inner edge, and its derivatives in spin and `inner`.
+    fn inner_edge(&self) -> (f64, [f64; 2]) {
+        let (isco, isco_rate) = last_stable_orbit(self.spin);
+        if self.profile != Profile::Even {
+            return (isco * self.inner, [isco_rate * self.inner, isco]);
+        }
+        // r₊ = 1 + √(1 − a²), and a little more: light from there takes for ever.
+        let root = (1.0 - self.spin * self.spin).max(1e-12).sqrt();
+        let (horizon, horizon_rate) = ((1.0 + root) * OUTSIDE, -self.spin / root * OUTSIDE);
+        let radius = horizon + self.inner * (isco - horizon);
+        (radius, [horizon_rate + self.inner * (isco_rate - horizon_rate), isco - horizon])
+    }
+}
+
+/// The innermost that is seen, in units of the horizon's radius.
+const OUTSIDE: f64 = 1.0 + 1e-6;
 
 /// Radius of the last stable orbit about +z, and its derivative in a.
 fn last_stable_orbit(spin: f64) -> (f64, f64) {

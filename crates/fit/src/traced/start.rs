@@ -22,6 +22,17 @@ pub struct Start {
     pub center: [f64; 2],
     /// How much of the picture's variance it leaves unexplained.
     pub left: f64,
+    /// Number of the template that it is.
+    pub template: usize,
+}
+
+/// A disk to compare a picture with.
+#[derive(Clone, Copy, Debug)]
+pub struct Template {
+    /// The disk; its frame does not count.
+    pub setting: Setting,
+    /// Width of the picture, M.
+    pub width: f64,
 }
 
 const SPINS: [f64; 4] = [-0.6, 0.3, 0.75, 0.95];
@@ -48,6 +59,29 @@ struct Coarse {
 
 /// Disks that a picture may be of, the most alike first.
 pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
+    let painter = Painter::new(Projection::Angular, true, Fineness::SKETCH);
+    let mut templates = Vec::new();
+    for spin in SPINS {
+        for inclination in INCLINATIONS {
+            for k in 0..WIDTHS.2 {
+                let setting = Setting {
+                    spin,
+                    inclination: inclination.to_radians(),
+                    u: 1e-3,
+                    inner: 1.0,
+                    outer: f64::INFINITY,
+                    profile: Profile::PageThorne,
+                    frame: Frame { size, scale: 1.0, center: [0.0; 2], position_angle: 0.0 },
+                };
+                templates.push(Template { setting, width: WIDTHS.0 * WIDTHS.1.powi(k) });
+            }
+        }
+    }
+    among(values, size, &painter, &templates)
+}
+
+/// Disks among some that a picture may be of, the most alike first.
+pub fn among(values: &[f64], size: [usize; 2], painter: &Painter, templates: &[Template]) -> Vec<Start> {
     let factor = size[0].max(size[1]).div_ceil(COARSE).max(1);
     let (mut means, small) = reduced(values, size, factor);
     let mean = means.iter().sum::<f64>() / means.len().max(1) as f64;
@@ -59,38 +93,30 @@ pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
         return Vec::new();
     }
     let coarse = Coarse { values: means, size: small, square };
-    let painter = Painter::new(Projection::Angular, true, Fineness::SKETCH);
-    let mut cases = Vec::new();
-    for spin in SPINS {
-        for inclination in INCLINATIONS {
-            for k in 0..WIDTHS.2 {
-                cases.push((spin, inclination, WIDTHS.0 * WIDTHS.1.powi(k)));
-            }
-        }
-    }
-    let mut found: Vec<Start> = cases
+    let mut found: Vec<Start> = templates
         .par_iter()
-        .flat_map_iter(|(spin, inclination, width)| {
+        .enumerate()
+        .flat_map_iter(|(number, Template { setting, width })| {
             let frame = Frame {
                 size: [TEMPLATE; 2],
                 scale: LARGER * width / TEMPLATE as f64,
                 center: [0.0; 2],
                 position_angle: 0.0,
             };
-            let setting = Setting {
-                spin: *spin,
-                inclination: inclination.to_radians(),
-                u: 1e-3,
-                inner: 1.0,
-                outer: f64::INFINITY,
-                profile: Profile::PageThorne,
-                frame,
-            };
+            let setting = Setting { frame, ..*setting };
             let template: Vec<f64> = painter
                 .draw(&setting, false)
                 .map(|canvas| canvas.pixels().iter().map(|pixel| pixel[0]).collect())
                 .unwrap_or_default();
-            if template.is_empty() { Vec::new() } else { alike(&coarse, &template, &setting, *width, size) }
+            let mut found = if template.is_empty() {
+                Vec::new()
+            } else {
+                alike(&coarse, &template, &setting, *width, size)
+            };
+            for start in &mut found {
+                start.template = number;
+            }
+            found
         })
         .collect();
     found.sort_by(|a, b| a.left.total_cmp(&b.left));
@@ -101,6 +127,7 @@ pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
             let turn = (start.position_angle - other.position_angle + 540.0).rem_euclid(360.0) - 180.0;
             start.spin == other.spin
                 && start.inclination == other.inclination
+                && templates[start.template].setting.outer == templates[other.template].setting.outer
                 && (start.scale / other.scale).ln().abs() < 0.35
                 && turn.abs() < 20.0
         };
@@ -164,6 +191,7 @@ fn alike(coarse: &Coarse, template: &[f64], setting: &Setting, width: f64, size:
                     scale: width / size[0].max(size[1]) as f64,
                     center: [center[0] * pixels, center[1] * pixels],
                     left: 1.0 - explained,
+                    template: 0,
                 });
             }
         }
