@@ -12,6 +12,7 @@ use kerrscope::measure::Picture;
 use kerrscope::output::file::write_atomically;
 use kerrscope::spacetime::Level;
 use kerrscope_fit::Observed;
+use kerrscope_fit::evidence::Test;
 use kerrscope_fit::fit::{Fit, FitError, Image, Keeper, Models, Options, fit};
 use kerrscope_fit::models::{Choice, Name};
 use kerrscope_fit::output::residual::Residual;
@@ -22,6 +23,7 @@ use kerrscope_fit::traced::Projection;
 use serde::Serialize;
 
 use crate::report::Failure;
+use crate::theory::{self, Question};
 use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 
 /// Find what a picture says of a hole and its disk: spin, inclination and all else at once, with errors.
@@ -38,14 +40,21 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
+    With --spacetime NAME|FILE the disk is in a metric as text, one that is known by its name (kerr-newman, johannsen …) or one's\n\
+    own, whose numbers are parameters too: spin is looked for, the others keep the values of the text unless --prior frees them.\n\
+    For each that was free the report says what speaks for its value in Kerr's spacetime, 0 or that of --null NAME=VALUE: the\n\
+    Bayes factor K of that value against all that the prior allows (Savage & Dickey), which depends on how wide the prior is.\n\
+    A mass in the text stays as it is, as the unit; the observer is at rest at the distance from the origin of its coordinates.\n\n\
     With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
-    effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version.\n\n\
+    effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version; and with\n\
+    --spacetime its name, and tests (a list of name, null, deviations, tail, ln_bayes, error: null where ln_bayes is a bound from above).\n\n\
     Examples:\n  \
     kerrscope fit disk.fits --distance 100\n  \
     kerrscope fit disk.fits --free blur --prior 'inclination=isotropic(0, 90)' -o disk\n  \
-    kerrscope fit ring.fits --model ring"
+    kerrscope fit ring.fits --model ring\n  \
+    kerrscope fit disk.fits --spacetime johannsen --prior 'a13=uniform(-3, 3)'"
 )]
 pub struct Arguments {
     /// The picture
@@ -53,6 +62,12 @@ pub struct Arguments {
     /// page-thorne, power-law, thin-power-law or ring
     #[arg(long, value_name = "NAME")]
     model: Option<String>,
+    /// A metric as text that the disk is in: one that is known by its name, or a file
+    #[arg(long, value_name = "NAME|FILE")]
+    spacetime: Option<String>,
+    /// The value of a parameter of the metric with which it is Kerr's; 0 if not given
+    #[arg(long, value_name = "NAME=VALUE", requires = "spacetime")]
+    null: Vec<String>,
     /// r of the observer in M, or inf: the same as --fix distance=R
     #[arg(long, value_name = "R", value_parser = parse_distance)]
     distance: Option<f64>,
@@ -107,7 +122,11 @@ enum Shape {
 #[derive(Serialize)]
 struct Output<'a> {
     model: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spacetime: Option<&'a str>,
     parameters: &'a [Estimate],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tests: Option<&'a [Test]>,
     converged: bool,
     good: bool,
     warnings: &'a [String],
@@ -124,19 +143,32 @@ struct Output<'a> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let (choice, request) = asked(arguments)?;
+    let mut question = arguments
+        .spacetime
+        .as_deref()
+        .map(|word| Question::new(word, choice.name, choice.projection, &arguments.null))
+        .transpose()?;
     let picture = Picture::open(&arguments.image).map_err(|error| Failure::Input(error.to_string()))?;
     let image = Image {
         size: [picture.width, picture.height],
         pixel: picture.pixel.microarcseconds,
         values: picture.values,
     };
-    let model = Observed::new(choice.source(2), image.size);
+    let source = question.as_ref().map_or_else(|| choice.source(2), |question| question.tested.source(2));
+    let model = Observed::new(source, image.size);
     let freedoms =
         request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
+    if let Some(question) = &mut question {
+        question.seek(model.parameters(), &freedoms);
+    }
+    let models: &dyn Models = match &question {
+        Some(question) => &question.tested,
+        None => &choice,
+    };
     let kept = arguments
         .output
         .as_deref()
-        .map(|name| kept(arguments, name, &image, (choice.name, &request)))
+        .map(|name| kept(arguments, name, &image, (choice.name, &request, question.as_ref())))
         .transpose()?;
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
@@ -154,7 +186,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         .num_threads(arguments.threads.map_or(0, NonZeroUsize::get))
         .build()
         .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
-    let found = pool.install(|| fit(&image, &choice, &options));
+    let found = pool.install(|| fit(&image, models, &options));
     bar.finish_and_clear();
     let found = found.map_err(|error| match error {
         FitError::Cancelled => Failure::Interrupted(match &arguments.output {
@@ -164,8 +196,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         FitError::Keeper(fault) => Failure::Failed(fault),
         wrong => Failure::Input(format!("{}: {wrong}", arguments.image.display())),
     })?;
+    let answers = question.map(|q| q.answers(&found, model.parameters(), &options.freedoms));
     let output = Output {
         model: choice.name.name(),
+        spacetime: arguments.spacetime.as_deref(),
+        tests: answers.as_deref(),
         parameters: &found.estimates,
         converged: found.converged,
         good: found.good,
@@ -264,14 +299,15 @@ fn kept(
     arguments: &Arguments,
     name: &Path,
     image: &Image,
-    (model, request): (Name, &Request),
+    (model, request, question): (Name, &Request, Option<&Question>),
 ) -> Result<Kept, Failure> {
     let mut path = name.as_os_str().to_owned();
     path.push(".checkpoint");
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
-        "{:?} {:?} {:?} {:?} {:?} {}",
-        image.size, request, model, arguments.projection, arguments.noise, arguments.seed
+        "{:?} {:?} {:?} {:?} {:?} {} {:?}",
+        image.size, request, model, arguments.projection, arguments.noise, arguments.seed,
+        question.map(|question| &question.tested.theory)
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
     let path = Path::new(&path);
@@ -357,6 +393,7 @@ fn table(output: &Output<'_>) -> String {
         output.evaluations,
         output.wall_s
     );
+    text.push_str(&output.tests.map(theory::lines).unwrap_or_default());
     for warning in output.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }

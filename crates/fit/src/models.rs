@@ -1,9 +1,11 @@
 //! The models that a picture can be compared with, by their names.
 
+use std::sync::Arc;
+
 use crate::fit::Models;
 use crate::model::Source;
 use crate::ring::Ring;
-use crate::traced::{Disk, Fineness, Kind, Projection};
+use crate::traced::{Disk, Fineness, Kind, Projection, TextDisk, Theory};
 
 /// A model by its name.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -48,13 +50,18 @@ pub struct Choice {
     pub projection: Projection,
 }
 
+/// How finely disks are drawn: to look around with, in noisy pictures, and in all others.
+fn fine(level: usize) -> Fineness {
+    match level {
+        0 => Fineness::SKETCH,
+        1 => Fineness::MEDIUM,
+        _ => Fineness::default(),
+    }
+}
+
 impl Models for Choice {
     fn source(&self, fineness: usize) -> Box<dyn Source> {
-        let fineness = match fineness {
-            0 => Fineness::SKETCH,
-            1 => Fineness::MEDIUM,
-            _ => Fineness::default(),
-        };
+        let fineness = fine(fineness);
         let disk = |kind, opaque| Box::new(Disk::new(kind, opaque, self.projection, fineness));
         match self.name {
             Name::PageThorne => disk(Kind::PageThorne, true),
@@ -62,5 +69,44 @@ impl Models for Choice {
             Name::ThinPowerLaw => disk(Kind::PowerLaw, false),
             Name::Ring => Box::new(Ring),
         }
+    }
+}
+
+/// An opaque disk in a spacetime given as text.
+#[derive(Clone, Debug)]
+pub struct Tested {
+    /// The text.
+    pub theory: Arc<Theory>,
+    /// Whether the disk has the flux of Page & Thorne or a power of the radius.
+    pub kind: Kind,
+    /// How directions become places.
+    pub projection: Projection,
+    /// Names of the parameters that are looked for, of which derivatives are wanted; all if there are none.
+    pub free: Vec<String>,
+}
+
+impl Tested {
+    /// In which of the models' disks a theory can be tested.
+    ///
+    /// # Errors
+    /// If in no such.
+    pub fn kind(name: Name) -> Result<Kind, String> {
+        match name {
+            Name::PageThorne => Ok(Kind::PageThorne),
+            Name::PowerLaw => Ok(Kind::PowerLaw),
+            other => Err(format!(
+                "the model {} knows no other spacetime than Kerr's: give {} or {}",
+                other.name(),
+                Name::PageThorne.name(),
+                Name::PowerLaw.name()
+            )),
+        }
+    }
+}
+
+impl Models for Tested {
+    fn source(&self, fineness: usize) -> Box<dyn Source> {
+        let theory = Arc::clone(&self.theory);
+        Box::new(TextDisk::new(theory, self.kind, self.projection, fine(fineness), self.free.clone()))
     }
 }
