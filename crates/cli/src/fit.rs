@@ -306,7 +306,12 @@ fn kept(
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
         "{:?} {:?} {:?} {:?} {:?} {} {:?}",
-        image.size, request, model, arguments.projection, arguments.noise, arguments.seed,
+        image.size,
+        request,
+        model,
+        arguments.projection,
+        arguments.noise,
+        arguments.seed,
         question.map(|question| &question.tested.theory)
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);

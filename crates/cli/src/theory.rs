@@ -34,7 +34,9 @@ impl Question {
             .map(|(name, _)| ((*name).to_owned(), 0.0))
             .collect();
         for text in nulls {
-            let named = text.split_once('=').and_then(|(name, value)| Some((name.trim(), value.trim().parse::<f64>().ok()?)));
+            let named = text
+                .split_once('=')
+                .and_then(|(name, value)| Some((name.trim(), value.trim().parse::<f64>().ok()?)));
             let Some((name, value)) = named.filter(|(_, value)| value.is_finite()) else {
                 faults.push(format!("--null {text:?}: give NAME=VALUE, as charge=0"));
                 continue;
@@ -62,10 +64,7 @@ impl Question {
 
     /// What a fit says of Kerr's values of those that were free.
     pub fn answers(&self, found: &Fit, parameters: &[Parameter], freedoms: &[Freedom]) -> Vec<Test> {
-        self.nulls
-            .iter()
-            .filter_map(|(name, null)| test(found, parameters, freedoms, name, *null))
-            .collect()
+        self.nulls.iter().filter_map(|(name, null)| test(found, parameters, freedoms, name, *null)).collect()
     }
 }
 

@@ -39,7 +39,13 @@ pub struct Test {
 const UNSEEN: f64 = 3.0;
 
 /// Tests a value of a parameter that was free; none if it was not, or the value has no density before.
-pub fn test(fit: &Fit, parameters: &[Parameter], freedoms: &[Freedom], name: &str, null: f64) -> Option<Test> {
+pub fn test(
+    fit: &Fit,
+    parameters: &[Parameter],
+    freedoms: &[Freedom],
+    name: &str,
+    null: f64,
+) -> Option<Test> {
     let at = parameters.iter().position(|parameter| parameter.name == name)?;
     let Some(Freedom::Free(prior)) = freedoms.get(at) else { return None };
     let column = fit.free.iter().position(|(free, _)| free == name)?;
@@ -65,7 +71,8 @@ pub fn test(fit: &Fit, parameters: &[Parameter], freedoms: &[Freedom], name: &st
     } else {
         let each: Vec<f64> = chains.iter().map(|chain| kernel(chain, range, null, width)).collect();
         let mean = each.iter().sum::<f64>() / each.len() as f64;
-        let variance = each.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (each.len() as f64 - 1.0).max(1.0);
+        let variance =
+            each.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / (each.len() as f64 - 1.0).max(1.0);
         // At least that of as many draws within a kernel.
         let counted = (effective * mean * width * 2.0 * PI.sqrt()).max(1.0);
         let error = (variance.sqrt() / mean / (each.len() as f64).sqrt()).max(counted.sqrt().recip());
@@ -164,10 +171,8 @@ mod tests {
     #[test]
     fn ratios_of_gaussians() {
         let bell = |z: f64| (-0.5 * z * z).exp() / (2.0 * PI).sqrt();
-        for (prior, before) in [
-            (Prior::Uniform(-5.0, 5.0), 0.1),
-            (Prior::Normal(0.0, 2.0), bell(0.0) / 2.0),
-        ] {
+        for (prior, before) in [(Prior::Uniform(-5.0, 5.0), 0.1), (Prior::Normal(0.0, 2.0), bell(0.0) / 2.0)]
+        {
             for mean in [0.0, 0.4] {
                 let test = found(&fit(mean, 0.2, f64::NEG_INFINITY), prior, 0.0).unwrap();
                 let expected = (bell(mean / 0.2) / 0.2 / before).ln();

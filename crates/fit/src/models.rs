@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::fit::Models;
 use crate::model::Source;
 use crate::ring::Ring;
-use crate::traced::{Disk, Fineness, Kind, Projection, TextDisk, Theory};
+use crate::traced::{Disk, Fineness, Kind, Light, Projection, TextDisk, Theory};
 
 /// A model by its name.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -107,6 +107,8 @@ impl Tested {
 impl Models for Tested {
     fn source(&self, fineness: usize) -> Box<dyn Source> {
         let theory = Arc::clone(&self.theory);
-        Box::new(TextDisk::new(theory, self.kind, self.projection, fine(fineness), self.free.clone()))
+        let light = if fineness == 0 { Light::Kerr } else { Light::Own };
+        let wanted = (light, self.free.clone());
+        Box::new(TextDisk::new(theory, self.kind, self.projection, fine(fineness), wanted))
     }
 }

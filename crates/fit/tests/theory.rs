@@ -10,7 +10,7 @@ use kerrscope_fit::evidence::{Test, test};
 use kerrscope_fit::fit::{Fit, Image, Models, Options, fit};
 use kerrscope_fit::model::{Freedom, Prediction, Source};
 use kerrscope_fit::models::Tested;
-use kerrscope_fit::traced::{Disk, Fineness, Kind, Projection, TextDisk, Theory};
+use kerrscope_fit::traced::{Disk, Fineness, Kind, Light, Projection, TextDisk, Theory};
 use kerrscope_fit::{Observed, Prior};
 use rand::SeedableRng;
 use rand_distr::{Distribution, StandardNormal};
@@ -23,7 +23,7 @@ fn theory(name: &str) -> Arc<Theory> {
 
 fn text(name: &str, kind: Kind, fineness: Fineness, free: &[&str]) -> TextDisk {
     let free = free.iter().map(|name| (*name).to_owned()).collect();
-    TextDisk::new(theory(name), kind, Projection::Angular, fineness, free)
+    TextDisk::new(theory(name), kind, Projection::Angular, fineness, (Light::Own, free))
 }
 
 fn peak(values: &[f64]) -> f64 {
@@ -37,6 +37,8 @@ fn off(found: &[f64], expected: &[f64]) -> f64 {
     (difference / square(&mut expected.iter().copied())).sqrt()
 }
 
+/// Kerr's metric as text has the pictures of the closed form, and their derivatives: in Boyer and Lindquist's radius and angle, as
+/// Johannsen's, to the errors of rays; in Kerr and Schild's Cartesian coordinates the observer stands elsewhere by a²/r.
 #[test]
 fn texts_of_kerr_have_the_picture_of_kerr() {
     // inclination, position angle, scale, centre, distance, inner, outer.
@@ -51,22 +53,68 @@ fn texts_of_kerr_have_the_picture_of_kerr() {
         known.extend(common);
         let disk = Disk::new(Kind::PageThorne, true, Projection::Angular, Fineness::MEDIUM);
         let expected: Prediction = disk.draw(&known, SIZE, true).unwrap();
-        for (name, own) in [("kerr-text", vec![spin]), ("johannsen", vec![0.0, 0.0, 0.0, 0.0, spin])] {
+        for (name, own, [values_off, slopes_off]) in [
+            ("johannsen", vec![0.0, 0.0, 0.0, 0.0, spin], [1e-6, 3e-3]),
+            ("kerr-text", vec![spin], [4e-4, 1e-2]),
+        ] {
+            if name == "kerr-text" && common[5] < 1000.0 {
+                continue;
+            }
             let disk = text(name, Kind::PageThorne, Fineness::MEDIUM, &["spin", "inclination", "distance"]);
             let mut values = own.clone();
             values.extend(common);
-            let start = Instant::now();
-            disk.draw(&values, SIZE, false).unwrap();
-            let alone = start.elapsed();
-            let start = Instant::now();
             let found = disk.draw(&values, SIZE, true).unwrap();
-            println!("{name} {spin}: {alone:?}, with derivatives {:?}", start.elapsed());
-            let worst = peak(&found.values.iter().zip(&expected.values).map(|(a, b)| a - b).collect::<Vec<_>>());
-            println!("  value {:.1e}", worst / peak(&expected.values));
+            let differences: Vec<f64> =
+                found.values.iter().zip(&expected.values).map(|(a, b)| a - b).collect();
+            let worst = peak(&differences) / peak(&expected.values);
+            println!("{name} {spin}: {worst:.1e}");
+            assert!(worst < values_off, "{name} {spin}: {worst}");
             for (k, column) in expected.derivatives.iter().enumerate() {
-                let at = if k == 0 { own.len() - 1 } else { own.len() + k - 1 };
-                println!("  {k} {:.1e}", off(&found.derivatives[at], column));
+                // There is no outer edge to move; and a²/r changes with the distance.
+                if peak(column) == 0.0 || (k == 6 && name == "kerr-text") {
+                    continue;
+                }
+                let slope = off(&found.derivatives[own.len() - 1 + k], column);
+                println!("  {k}: {slope:.1e}");
+                assert!(slope < slopes_off, "{name} {spin} {k}: {slope}");
             }
+        }
+    }
+}
+
+/// Where light goes otherwise than around a Kerr hole, derivatives are those of pictures whose lines lie four times closer.
+#[test]
+fn derivatives_are_differences() {
+    let common = [60.0, 20.0, 0.94, 0.3, -0.2, 1000.0, 1.1, 13.0];
+    let finer = Fineness { lines: 640, step: 0.015, bend: 0.03, orders: 3 };
+    for (name, kind, own, free) in [
+        (
+            "johannsen",
+            Kind::PageThorne,
+            vec![2.0, 0.3, 0.0, 0.0, 0.5],
+            &["a13", "a22", "spin", "inclination"][..],
+        ),
+        ("kerr-newman", Kind::PowerLaw, vec![0.6, 0.4], &["charge", "spin", "inclination", "index", "inner"]),
+    ] {
+        let (disk, fine) = (text(name, kind, Fineness::MEDIUM, free), text(name, kind, finer, free));
+        let mut values = own;
+        values.extend(common);
+        if kind == Kind::PowerLaw {
+            values.push(2.5);
+        }
+        let slopes = disk.draw(&values, SIZE, true).unwrap().derivatives;
+        for (k, parameter) in disk.parameters().iter().enumerate().filter(|(_, p)| free.contains(&p.name)) {
+            let step = if parameter.name == "inclination" { 0.1 } else { 4e-3 };
+            let moved = |sign: f64| {
+                let mut values = values.clone();
+                values[k] += sign * step;
+                fine.draw(&values, SIZE, false).unwrap().values
+            };
+            let differences: Vec<f64> =
+                moved(1.0).iter().zip(moved(-1.0)).map(|(a, b)| (a - b) / (2.0 * step)).collect();
+            let error = off(&slopes[k], &differences);
+            println!("{name} {}: {error:.1e}", parameter.name);
+            assert!(error < 1e-2, "{name} {}: {error}", parameter.name);
         }
     }
 }
@@ -126,22 +174,25 @@ fn found(image: &Image) -> (Fit, Test) {
             None => parameter.usual,
         })
         .collect();
+    let start = Instant::now();
     let options = Options {
         freedoms,
         noise: None,
         seed: 5,
-        rounds: 12,
+        rounds: 3,
         starts: Vec::new(),
         progress: &|_| {},
         cancelled: &|| false,
         keeper: None,
     };
-    let start = Instant::now();
     let fit = fit(image, &tested, &options).unwrap();
     let test = test(&fit, model.parameters(), &options.freedoms, "a13", 0.0).unwrap();
     println!("{} evaluations in {:?}, {:?}", fit.evaluations, start.elapsed(), fit.warnings);
     for estimate in fit.estimates.iter().filter(|estimate| estimate.free) {
-        println!("{} {:.4} ± {:.4}, mode {:.4}, R̂ {:?}", estimate.name, estimate.mean, estimate.sd, estimate.mode, estimate.r_hat);
+        println!(
+            "{} {:.4} ± {:.4}, mode {:.4}, R̂ {:?}",
+            estimate.name, estimate.mean, estimate.sd, estimate.mode, estimate.r_hat
+        );
     }
     println!("{test:?}");
     (fit, test)

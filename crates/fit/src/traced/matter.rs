@@ -68,7 +68,6 @@ impl Matter {
         }
         matter
     }
-
 }
 
 impl Shine for Matter {

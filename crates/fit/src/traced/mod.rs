@@ -24,5 +24,5 @@ pub use matter::Profile;
 pub use picture::{DRAWN, Fineness, Painter, Setting, Unseen};
 pub use screen::{Frame, Projection};
 pub use source::{Disk, Kind};
-pub use text_disk::TextDisk;
+pub use text_disk::{Light, TextDisk};
 pub use theory::{SPIN, Theory};

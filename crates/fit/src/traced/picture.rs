@@ -228,8 +228,7 @@ impl Painter {
         let screen =
             Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection)
                 .turning(view.turn);
-        let sketch =
-            Sketch { above: *above, setting, view, screen: &screen, matter, lambda, derivatives };
+        let sketch = Sketch { above: *above, setting, view, screen: &screen, matter, lambda, derivatives };
         let lines: Vec<Lines> =
             images.iter().enumerate().map(|(order, image)| self.lines(view, order, *inner, image)).collect();
         let size = setting.frame.size;

@@ -38,7 +38,12 @@ pub struct Tabulated {
 
 impl Tabulated {
     /// Of a spacetime, for radii whose x lies between the two, and of its neighbours in each parameter.
-    pub fn new(here: &Spacetime, neighbours: &[Neighbours<'_>], profile: Profile, [low, high]: [f64; 2]) -> Self {
+    pub fn new(
+        here: &Spacetime,
+        neighbours: &[Neighbours<'_>],
+        profile: Profile,
+        [low, high]: [f64; 2],
+    ) -> Self {
         let step = (high - low) / INTERVALS as f64;
         let place = |k: usize| low + step * k as f64;
         let last = here.isco.powf(-0.5);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::matter::Profile;
 use super::picture::{Fineness, Image, Painter, Setting, Stand};
-use super::ratio::{Base, Moved, Sought};
+use super::ratio::{Base, Critical, Moved, Sought};
 use super::screen::{Frame, Projection};
 use super::sight::Sight;
 use super::source::Kind;
@@ -22,13 +22,23 @@ pub struct TextDisk {
     painter: Painter,
     /// Names of the parameters of which derivatives are wanted; all if there are none.
     free: Vec<String>,
+    light: Light,
+}
+
+/// How light is followed.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum Light {
+    /// In the metric itself.
+    Own,
+    /// As around the Kerr hole of the same spin: the disk alone is the metric's. Fast, to look around with.
+    Kerr,
 }
 
 /// Image orders that are drawn: the next is e^π times thinner again.
 const ORDERS: usize = 3;
 
-/// Starts that are tried: each costs some thousand rays a step.
-const STARTS: usize = 10;
+/// Starts that are tried.
+const STARTS: usize = 12;
 
 /// The step of a metric's parameter of size 1, and those in inclination and distance: differences of both sides are in error by their
 /// squares.
@@ -51,10 +61,10 @@ impl TextDisk {
         kind: Kind,
         projection: Projection,
         fineness: Fineness,
-        free: Vec<String>,
+        (light, free): (Light, Vec<String>),
     ) -> Self {
         let fineness = Fineness { orders: fineness.orders.min(ORDERS), ..fineness };
-        Self { theory, kind, painter: Painter::new(projection, true, fineness), free }
+        Self { theory, kind, painter: Painter::new(projection, true, fineness), free, light }
     }
 
     fn is_free(&self, name: &str) -> bool {
@@ -93,11 +103,14 @@ impl TextDisk {
         let here = self.theory.at(metric, outer)?;
         let setting = self.setting(here.spin, common, index, size);
         let sought = if derivatives { self.sought() } else { Vec::new() };
-        let near: Vec<Near> =
-            sought.iter().map(|k| Near::new(&self.theory, metric, *k, outer)).collect();
+        let near: Vec<Near> = sought.iter().map(|k| Near::new(&self.theory, metric, *k, outer)).collect();
         let scene = Scene { here: &here, setting: &setting, near: &near };
         let [turning, away] = ["inclination", "distance"].map(|name| derivatives && self.is_free(name));
-        let images = scene.images(&self.painter, turning, away).map_err(|_| "its light".to_owned())?;
+        let images = match self.light {
+            Light::Own => scene.images(&self.painter, turning, away),
+            Light::Kerr => scene.sketches(&self.painter),
+        };
+        let images = images.map_err(|_| "its light".to_owned())?;
         let profile = setting.profile;
         let ends = Stand::new(&setting, (here.isco, 0.0), 0.0).ends();
         let neighbours: Vec<Neighbours<'_>> = near.iter().map(Near::neighbours).collect();
@@ -110,8 +123,7 @@ impl TextDisk {
             let stand = Stand::new(&setting, (here.isco, isco_rate), turn);
             let light = Changing { matter: &matter, parameter: (pass < near.len()).then_some(pass) };
             let drawn: Vec<Image> = images.iter().map(|image| image.pass(pass, near.len())).collect();
-            let canvas =
-                self.painter.paint(&stand, (&light, scene.lambda(&stand)?), &drawn, derivatives);
+            let canvas = self.painter.paint(&stand, (&light, scene.lambda(&stand)?), &drawn, derivatives);
             let channel = |channel: usize, factor: f64| -> Vec<f64> {
                 canvas.pixels().iter().map(|pixel| factor * pixel[channel]).collect()
             };
@@ -123,8 +135,17 @@ impl TextDisk {
                 if derivatives {
                     let degree = 1f64.to_radians();
                     let factor = -common[DISTANCE].powi(-2);
-                    let channels =
-                        [(2, degree), (10, degree), (7, 1.0), (8, 1.0), (9, 1.0), (3, factor), (4, 1.0), (5, 1.0), (6, 1.0)];
+                    let channels = [
+                        (2, degree),
+                        (10, degree),
+                        (7, 1.0),
+                        (8, 1.0),
+                        (9, 1.0),
+                        (3, factor),
+                        (4, 1.0),
+                        (5, 1.0),
+                        (6, 1.0),
+                    ];
                     for (column, (at, factor)) in columns[own..].iter_mut().zip(channels) {
                         *column = channel(at, factor);
                     }
@@ -208,6 +229,21 @@ impl Scene<'_> {
             .map_err(|_| "its observer".to_owned())
     }
 
+    /// The images of all orders as if light went around the Kerr hole of the same spin.
+    fn sketches(&self, painter: &Painter) -> Result<Vec<Changed>, super::Unseen> {
+        let stand = Stand::new(self.setting, (self.here.isco, 0.0), 1.0);
+        let sketch = |order: usize| {
+            let image = painter.image(&stand, order)?;
+            let drift = |near: &Near| {
+                let turn = near.rates(self.here).1;
+                image.nodes.values.iter().map(|value| turn * value[1]).collect()
+            };
+            let drifts = self.near.iter().map(drift).collect();
+            Ok(Changed { image, drifts })
+        };
+        painter.orders().map(sketch).collect()
+    }
+
     /// The images of all orders, with derivatives in inclination and distance if these are asked for; else Kerr's stand for them.
     fn images(&self, painter: &Painter, turning: bool, away: bool) -> Result<Vec<Changed>, super::Unseen> {
         let (inclination, u) = self.view();
@@ -232,9 +268,13 @@ impl Scene<'_> {
         }
         let moved: Vec<Moved<'_>> = moves
             .iter()
-            .map(|(sides, step, kerr)| Moved { sides: sides.each_ref().map(Option::as_ref), step: *step, kerr: *kerr })
+            .map(|(sides, step, kerr)| Moved {
+                sides: sides.each_ref().map(Option::as_ref),
+                step: *step,
+                kerr: *kerr,
+            })
             .collect();
-        let mut guess = vec![0.0; 2];
+        let mut before: Option<Critical> = None;
         let mut images = Vec::new();
         for order in painter.orders() {
             let base = painter.image(&hole, order)?;
@@ -245,11 +285,10 @@ impl Scene<'_> {
                 sight: &sight,
                 ends: (stand.inner, &ends),
                 moved: &moved,
+                before: before.as_ref(),
             }
-            .find(&guess)?;
-            if order > 0 {
-                guess = found.middle;
-            }
+            .find()?;
+            before = Some(found.critical);
             let (mut nodes, mut drifts) = (found.nodes, found.drifts);
             let rest = drifts.split_off(self.near.len());
             for (drift, (_, _, (slot, _))) in rest.iter().zip(&moves[self.near.len()..]) {
@@ -324,7 +363,9 @@ impl Source for TextDisk {
                 let at = |name: &str| names.iter().position(|p| p.name == name).map(|k| start[k]);
                 let own = self.theory.parameters().iter();
                 let mut begin: Vec<f64> = own.map(|(name, value)| at(name).unwrap_or(*value)).collect();
-                begin.extend(names.iter().zip(&start).filter(|(p, _)| p.name != SPIN).map(|(_, value)| *value));
+                begin.extend(
+                    names.iter().zip(&start).filter(|(p, _)| p.name != SPIN).map(|(_, value)| *value),
+                );
                 begin
             })
             .collect()

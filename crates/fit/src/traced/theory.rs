@@ -51,7 +51,8 @@ impl Theory {
             return Err("is not the same all around the z axis, so that no disk stays as it is".to_owned());
         }
         if element.has_throat() || element.outer().is_finite() {
-            return Err("is not flat far away on this side alone: pictures are fitted as seen from far away".to_owned());
+            return Err("is not flat far away on this side alone: pictures are fitted as seen from far away"
+                .to_owned());
         }
         element.check_flat().map_err(|reason| format!("is not flat far away: {reason}"))?;
         let mut parameters = Vec::new();
