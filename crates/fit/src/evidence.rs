@@ -85,6 +85,9 @@ pub fn test(
     Some(Test { name: name.to_owned(), null, deviations, tail: tail.min(1.0), ln_bayes, error })
 }
 
+/// Points at which a prior is added up.
+const COUNT: u32 = 20_000;
+
 /// The prior's density, whose integral over its range is one; none outside, or where the range is infinite.
 fn density(prior: &Prior, [low, high]: [f64; 2], x: f64) -> Option<f64> {
     if !(x >= low && x <= high) {
@@ -99,7 +102,6 @@ fn density(prior: &Prior, [low, high]: [f64; 2], x: f64) -> Option<f64> {
     if !(from.is_finite() && to.is_finite() && from < to) {
         return None;
     }
-    const COUNT: u32 = 20_000;
     let step = (to - from) / f64::from(COUNT);
     let sum: f64 = (0..COUNT).map(|k| prior.log(from + step * (f64::from(k) + 0.5))[0].exp() * step).sum();
     let value = prior.log(x)[0].exp() / sum;

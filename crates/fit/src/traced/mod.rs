@@ -8,6 +8,7 @@ mod picture;
 mod pieces;
 mod ratio;
 mod screen;
+mod secant;
 mod shine;
 mod sight;
 mod sketch;

@@ -13,6 +13,7 @@
 use std::f64::consts::PI;
 
 use super::order::{HOLE, NODES, Nodes, NotFound, VALUES, View, node, periodic, scale};
+use super::secant::{FIRST, Search};
 use super::sight::{Landing, Sight};
 use super::tabulated::difference;
 
@@ -31,13 +32,6 @@ const DIRECTIONS: usize = 8;
 /// The last terms around, in ln Q, at which there are directions enough, per image order.
 const CONVERGED: [f64; 4] = [1e-4, 4e-5, 2e-5, 1e-5];
 
-/// The last step of a search, in ln ρ, per image order.
-const CLOSE: [f64; 4] = [1e-4, 1e-5, 1e-6, 1e-7];
-
-/// How far a search goes at first where it does not know how far, and at most at a time, in ln ρ per image order.
-const FIRST: [f64; 4] = [0.03, 0.01, 1e-3, 1e-4];
-const MOST: [f64; 4] = [0.3, 0.05, 5e-3, 5e-4];
-
 /// Rays of a search at most.
 const STEPS: usize = 60;
 
@@ -52,9 +46,9 @@ pub struct Base<'a> {
 }
 
 /// The observer in neighbouring spacetimes, or at neighbouring places, a step below and above in one parameter.
-pub struct Moved<'a> {
+pub struct Moved {
     /// Both.
-    pub sides: [Option<&'a Sight>; 2],
+    pub sides: [Option<Sight>; 2],
     /// The step.
     pub step: f64,
     /// Which of the Kerr hole's parameters changes along, and by how much per change of this one.
@@ -72,7 +66,7 @@ pub struct Sought<'a> {
     /// x at the inner edge, and in each direction at the outer edge.
     pub ends: (f64, &'a [f64]),
     /// Neighbours, of which derivatives are found.
-    pub moved: &'a [Moved<'a>],
+    pub moved: &'a [Moved],
     /// What is known from the order before.
     pub before: Option<&'a Critical>,
 }
@@ -96,28 +90,21 @@ pub struct Image {
     pub critical: Critical,
 }
 
-/// A node that is looked for.
-struct Search {
-    direction: usize,
-    node: usize,
-    /// x, and dx/d ln ρ, nearly.
-    target: f64,
-    slope: f64,
-    log: f64,
-    /// What is known: ln Q where light lands too far in, and too far out.
-    low: f64,
-    high: f64,
-    last: Option<[f64; 2]>,
-    grow: f64,
-    done: bool,
-}
-
 /// What is known of the Kerr image at the coarse nodes of a direction.
 struct Along {
     /// ln ρ, and its derivative in t.
     log: [[f64; 2]; COARSE],
     /// Kerr's derivatives.
     drift: [[f64; HOLE]; COARSE],
+}
+
+/// An image that was found, and what of the Kerr image is at its nodes.
+struct Found {
+    along: Vec<Along>,
+    /// How much of the values at the nodes makes the slopes there.
+    slopes: Vec<Vec<[f64; 2]>>,
+    /// ρ and (cos ψ, sin ψ) of all nodes.
+    places: Vec<(f64, [f64; 2])>,
 }
 
 /// t of a coarse node of so many.
@@ -153,61 +140,6 @@ fn shares(count: usize, t: f64) -> Vec<[f64; 2]> {
             share.map(|share| 2.0 / n * half(j) * share)
         })
         .collect()
-}
-
-impl Search {
-    /// Learns from a ray; false where it was given up.
-    fn learn(&mut self, landing: Landing, order: usize) -> bool {
-        let x = match landing {
-            Landing::Lost => return false,
-            Landing::Captured => {
-                self.low = self.low.max(self.log);
-                self.wander(1.0);
-                return true;
-            }
-            Landing::Sky => {
-                self.high = self.high.min(self.log);
-                self.wander(-1.0);
-                return true;
-            }
-            Landing::At(x) => x,
-        };
-        if x > self.target {
-            self.low = self.low.max(self.log)
-        } else {
-            self.high = self.high.min(self.log)
-        }
-        if let Some([log, before]) = self.last {
-            let secant = (x - before) / (self.log - log);
-            // Far from what Kerr's image says, two rays do not tell a slope.
-            let share = secant / self.slope;
-            if share.is_finite() && share > 0.2 && share < 5.0 {
-                self.slope = secant;
-            }
-        }
-        self.last = Some([self.log, x]);
-        let step = ((self.target - x) / self.slope).clamp(-MOST[order], MOST[order]);
-        self.done = step.abs() < CLOSE[order];
-        let next = self.log + step;
-        self.log = if self.done || (next > self.low && next < self.high) {
-            next
-        } else if self.low.is_finite() && self.high.is_finite() {
-            0.5 * (self.low + self.high)
-        } else {
-            next
-        };
-        true
-    }
-
-    /// Goes on where nothing landed.
-    fn wander(&mut self, sign: f64) {
-        self.log = if self.low.is_finite() && self.high.is_finite() {
-            0.5 * (self.low + self.high)
-        } else {
-            self.grow *= 2.0;
-            self.log + 0.5 * sign * self.grow
-        };
-    }
 }
 
 impl Sought<'_> {
@@ -350,31 +282,30 @@ impl Sought<'_> {
             };
             return before.drifts.iter().map(|values| row(values)).collect();
         }
-        let (table, slopes) = (self.table(NODES), self.table(self.nodes()));
+        let table = self.table(NODES);
         let along: Vec<Along> = directions.iter().map(|d| self.along(*d, &table)).collect();
-        let places: Vec<(f64, [f64; 2])> = (0..directions.len())
+        let places = (0..directions.len())
             .flat_map(|at| {
                 let polar = self.polar(directions[at]);
                 let logs = ratios[at].iter().zip(&along[at].log).take(self.nodes());
                 logs.map(move |(q, log)| ((log[0] + q).exp(), polar))
             })
             .collect();
-        self.moved
-            .iter()
-            .map(|moved| self.drift(moved, directions, ratios, (&along, &slopes, &places)))
-            .collect()
+        let found = Found { along, slopes: self.table(self.nodes()), places };
+        self.moved.iter().map(|moved| self.drift(moved, directions, ratios, &found)).collect()
     }
 
     /// The same for one.
     fn drift(
         &self,
-        moved: &Moved<'_>,
+        moved: &Moved,
         directions: &[usize],
         ratios: &[[f64; COARSE]],
-        (along, slopes, places): (&[Along], &[Vec<[f64; 2]>], &[(f64, [f64; 2])]),
+        found: &Found,
     ) -> Vec<[f64; COARSE]> {
         let landed = |landing: Landing| if let Landing::At(x) = landing { Some(x) } else { None };
-        let sides = moved.sides.map(|side| side.map(|side| side.land(self.order, places.iter().copied())));
+        let sides = moved.sides.each_ref();
+        let sides = sides.map(|side| Some(side.as_ref()?.land(self.order, found.places.iter().copied())));
         let mut drifts = vec![[0.0; COARSE]; directions.len()];
         for (at, row) in drifts.iter_mut().enumerate() {
             for (k, drift) in row.iter_mut().enumerate().take(self.nodes()) {
@@ -382,10 +313,10 @@ impl Sought<'_> {
                 let [target, rate] = self.target(directions[at], coarse(self.nodes(), k));
                 // Next to where light does not land any more there is no difference, and the derivative remains Kerr's.
                 let Some((from, to, width)) = difference(both, || Some(target), moved.step) else { continue };
-                let per_t = along[at].log[k][1]
-                    + slopes[k].iter().zip(&ratios[at]).map(|(share, q)| share[1] * q).sum::<f64>();
+                let per_t = found.along[at].log[k][1]
+                    + found.slopes[k].iter().zip(&ratios[at]).map(|(share, q)| share[1] * q).sum::<f64>();
                 let (slot, share) = moved.kerr;
-                *drift = -(to - from) / width * per_t / rate - share * along[at].drift[k][slot];
+                *drift = -(to - from) / width * per_t / rate - share * found.along[at].drift[k][slot];
             }
         }
         drifts

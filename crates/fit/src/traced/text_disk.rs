@@ -251,29 +251,22 @@ impl Scene<'_> {
         let hole = Stand::new(self.setting, super::picture::last_stable_orbit(self.here.spin), 1.0);
         let stand = Stand::new(self.setting, (self.here.isco, 0.0), 0.0);
         // Neighbours in each of the metric's parameters, in inclination and in 1/r.
-        let mut moves: Vec<([Option<Sight>; 2], f64, (usize, f64))> = Vec::new();
+        let mut moved: Vec<Moved> = Vec::new();
         for near in self.near {
             let sides = near.sides.each_ref();
             let sides = sides.map(|side| Sight::new(side.as_ref()?, inclination, u).ok());
-            moves.push((sides, near.step, (0, near.rates(self.here).1)));
+            moved.push(Moved { sides, step: near.step, kerr: (0, near.rates(self.here).1) });
         }
         if turning {
             let above = |i: f64| (i < FRAC_PI_2).then(|| Sight::new(self.here, i, u).ok())?;
-            moves.push(([above(inclination - TURN), above(inclination + TURN)], TURN, (1, 1.0)));
+            let sides = [above(inclination - TURN), above(inclination + TURN)];
+            moved.push(Moved { sides, step: TURN, kerr: (1, 1.0) });
         }
         if away {
             let step = AWAY * u;
-            let at = |u: f64| Sight::new(self.here, inclination, u).ok();
-            moves.push(([at(u - step), at(u + step)], step, (2, 1.0)));
+            let sides = [u - step, u + step].map(|u| Sight::new(self.here, inclination, u).ok());
+            moved.push(Moved { sides, step, kerr: (2, 1.0) });
         }
-        let moved: Vec<Moved<'_>> = moves
-            .iter()
-            .map(|(sides, step, kerr)| Moved {
-                sides: sides.each_ref().map(Option::as_ref),
-                step: *step,
-                kerr: *kerr,
-            })
-            .collect();
         let mut before: Option<Critical> = None;
         let mut images = Vec::new();
         for order in painter.orders() {
@@ -291,9 +284,9 @@ impl Scene<'_> {
             before = Some(found.critical);
             let (mut nodes, mut drifts) = (found.nodes, found.drifts);
             let rest = drifts.split_off(self.near.len());
-            for (drift, (_, _, (slot, _))) in rest.iter().zip(&moves[self.near.len()..]) {
+            for (drift, moved) in rest.iter().zip(&moved[self.near.len()..]) {
                 for (value, drift) in nodes.values.iter_mut().zip(drift) {
-                    value[1 + slot] = *drift;
+                    value[1 + moved.kerr.0] = *drift;
                 }
             }
             images.push(Changed { image: base.replaced(nodes, ends), drifts });
