@@ -49,7 +49,8 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
     effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version; and with\n\
-    --spacetime its name, and tests (a list of name, null, deviations, tail, ln_bayes, error: null where ln_bayes is a bound from above).\n\n\
+    --spacetime its name, and tests (a list of name, null, deviations, tail, ln_bayes, error, gaussian; error is\n\
+    null where ln_bayes is a bound from above, and gaussian is ln_bayes for a posterior that is a Gaussian).\n\n\
     Examples:\n  \
     kerrscope fit disk.fits --distance 100\n  \
     kerrscope fit disk.fits --free blur --prior 'inclination=isotropic(0, 90)' -o disk\n  \

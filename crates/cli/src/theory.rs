@@ -88,11 +88,13 @@ fn read(word: &str) -> Result<Theory, Failure> {
 /// Tests in words.
 pub fn lines(tests: &[Test]) -> String {
     let mut text = String::new();
-    for Test { name, null, deviations, tail, ln_bayes, error } in tests {
+    for Test { name, null, deviations, tail, ln_bayes, error, gaussian } in tests {
         let side = if *deviations > 0.0 { "above" } else { "below" };
         let bayes = match error {
             Some(error) => format!("K = {:.3}, ln K = {ln_bayes:.2} ± {error:.2}", ln_bayes.exp()),
-            None => format!("ln K < {ln_bayes:.1}, no draw lies near it"),
+            None => format!(
+                "ln K < {ln_bayes:.1}, as no draw lies near it; {gaussian:.1} if the tail is a Gaussian's"
+            ),
         };
         let _ = writeln!(
             text,

@@ -33,6 +33,8 @@ pub struct Test {
     pub ln_bayes: f64,
     /// Standard deviation of that, from how far chains differ; none for a bound.
     pub error: Option<f64>,
+    /// ln K if the posterior were a Gaussian of its mean and deviation: all that is known of it far from all draws.
+    pub gaussian: f64,
 }
 
 /// The number of effective draws that one may be wrong about: with 95 %, no more than 3/n lies where none of n draws does.
@@ -82,7 +84,8 @@ pub fn test(
             ((UNSEEN / effective / gap.max(width) / before).ln(), None)
         }
     };
-    Some(Test { name: name.to_owned(), null, deviations, tail: tail.min(1.0), ln_bayes, error })
+    let gaussian = -0.5 * deviations * deviations - (estimate.sd * (2.0 * PI).sqrt() * before).ln();
+    Some(Test { name: name.to_owned(), null, deviations, tail: tail.min(1.0), ln_bayes, error, gaussian })
 }
 
 /// Points at which a prior is added up.
@@ -181,6 +184,7 @@ mod tests {
                 let error = test.error.unwrap();
                 assert!((test.ln_bayes - expected).abs() < 0.15 + 3.0 * error, "{test:?} {expected}");
                 assert!((test.deviations - mean / 0.2).abs() < 0.1, "{test:?}");
+                assert!((test.gaussian - expected).abs() < 0.15, "{test:?} {expected}");
             }
         }
         // Half of a Gaussian, at its top.

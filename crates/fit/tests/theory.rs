@@ -211,11 +211,11 @@ fn near(fit: &Fit, name: &str, truth: f64) {
 #[test]
 fn a_deviation_is_recovered() {
     let (fit, test) = found(&noisy(rendered(0.5, 2.0, 60.0, 24, 144), 24, 0.02, 3), &KNOWN, 3);
-    assert!(fit.good && fit.estimates.iter().all(|e| e.converged(1.1, 50.0)), "{:?}", fit.warnings);
+    assert!(fit.good && fit.estimates.iter().all(|e| e.converged(1.1, 20.0)), "{:?}", fit.warnings);
     for (name, truth) in [("spin", 0.5), ("a13", 2.0), ("inclination", 60.0)] {
         near(&fit, name, truth);
     }
-    assert!(test.ln_bayes < -1.0, "{test:?}");
+    assert!(test.deviations > 3.0 && test.ln_bayes < 0.0 && test.gaussian < -3.0, "{test:?}");
 }
 
 /// None, in a picture of a Kerr hole drawn by the closed form.
@@ -226,7 +226,7 @@ fn no_deviation_is_found_around_a_kerr_hole() {
     let values = [0.5, 60.0, 0.0, 1.1, 0.0, 0.0, 1000.0, 1.0, 13.0];
     let picture = disk.draw(&values, [24; 2], false).unwrap().values;
     let (fit, test) = found(&noisy(picture, 24, 0.02, 3), &KNOWN, 3);
-    assert!(fit.good && fit.estimates.iter().all(|e| e.converged(1.1, 50.0)), "{:?}", fit.warnings);
+    assert!(fit.good && fit.estimates.iter().all(|e| e.converged(1.1, 20.0)), "{:?}", fit.warnings);
     for (name, truth) in [("spin", 0.5), ("a13", 0.0), ("inclination", 60.0)] {
         near(&fit, name, truth);
     }
