@@ -12,6 +12,7 @@ use kerrscope::measure::Picture;
 use kerrscope::output::file::write_atomically;
 use kerrscope::spacetime::Level;
 use kerrscope_fit::Observed;
+use kerrscope_fit::evidence::Test;
 use kerrscope_fit::fit::{AIM, Fit, FitError, Image, Keeper, Models, Options, fit};
 use kerrscope_fit::models::{Choice, Name};
 use kerrscope_fit::output::residual::Residual;
@@ -23,6 +24,7 @@ use kerrscope_fit::traced::Projection;
 use serde::Serialize;
 
 use crate::report::Failure;
+use crate::theory::{self, Question};
 use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 
 /// Find what a picture says of a hole and its disk: spin, inclination and all else at once, with errors.
@@ -44,15 +46,23 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     `inner` is then 0 at the horizon and 1 at the last stable orbit, `outer` is free if the disk ends within the picture, and `tone` is\n\
     what the curve does to pixels at edges. Edges where light begins gradually are left out. Pictures of one image order, as the\n\
     thesis's, need --orders 1 (exactly edge-on 2: both faces are seen there).\n\n\
+    With --spacetime NAME|FILE the disk is in a metric as text, one that is known by its name (kerr-newman, johannsen …) or one's\n\
+    own, whose numbers are parameters too: spin is looked for, the others keep the values of the text unless --prior frees them.\n\
+    For each that was free the report says what speaks for its value in Kerr's spacetime, 0 or that of --null NAME=VALUE: the\n\
+    Bayes factor K of that value against all that the prior allows (Savage & Dickey), which depends on how wide the prior is.\n\
+    A mass in the text stays as it is, as the unit; the observer is at rest at the distance from the origin of its coordinates.\n\n\
     With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\
-    effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version.\n\n\
+    effective), converged, good, warnings, chi2, degrees, explained, evidence, evaluations, wall_s, seed, version; and with\n\
+    --spacetime its name, and tests (a list of name, null, deviations, tail, ln_bayes, error, gaussian; error is\n\
+    null where ln_bayes is a bound from above, and gaussian is ln_bayes for a posterior that is a Gaussian).\n\n\
     Examples:\n  \
     kerrscope fit disk.fits --distance 100\n  \
     kerrscope fit disk.fits --free blur --prior 'inclination=isotropic(0, 90)' -o disk\n  \
     kerrscope fit ring.fits --model ring\n  \
-    kerrscope fit screenshot.png --silhouette --distance 30 --projection pinhole --fix outer=6"
+    kerrscope fit screenshot.png --silhouette --distance 30 --projection pinhole --fix outer=6\n  \
+    kerrscope fit disk.fits --spacetime johannsen --prior 'a13=uniform(-3, 3)'"
 )]
 pub struct Arguments {
     /// The picture
@@ -66,6 +76,12 @@ pub struct Arguments {
     /// Image orders that a silhouette shows, from the first; all if not given
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=4))]
     orders: Option<u8>,
+    /// A metric as text that the disk is in: one that is known by its name, or a file
+    #[arg(long, value_name = "NAME|FILE")]
+    spacetime: Option<String>,
+    /// The value of a parameter of the metric with which it is Kerr's; 0 if not given
+    #[arg(long, value_name = "NAME=VALUE", requires = "spacetime")]
+    null: Vec<String>,
     /// r of the observer in M, or inf: the same as --fix distance=R
     #[arg(long, value_name = "R", value_parser = parse_distance)]
     distance: Option<f64>,
@@ -120,7 +136,11 @@ enum Shape {
 #[derive(Serialize)]
 struct Output<'a> {
     model: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    spacetime: Option<&'a str>,
     parameters: &'a [Estimate],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tests: Option<&'a [Test]>,
     converged: bool,
     good: bool,
     warnings: &'a [String],
@@ -137,6 +157,11 @@ struct Output<'a> {
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
     let (choice, request) = asked(arguments)?;
+    let mut question = arguments
+        .spacetime
+        .as_deref()
+        .map(|word| Question::new(word, choice.name, choice.projection, &arguments.null))
+        .transpose()?;
     let picture = Picture::open(&arguments.image).map_err(|error| Failure::Input(error.to_string()))?;
     let image = Image {
         size: [picture.width, picture.height],
@@ -148,17 +173,27 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let seen =
         (choice.name == Name::Silhouette).then(|| Silhouette::of(&whole)).transpose().map_err(wrong)?;
     let silhouettes = seen.as_ref().map(|seen| Silhouettes::new(seen, choice));
-    let (image, models): (&Image, &dyn Models) = match (&seen, &silhouettes) {
-        (Some(seen), Some(models)) => (&seen.image, models),
-        _ => (&whole, &choice),
+    let image = seen.as_ref().map_or(&whole, |seen| &seen.image);
+    let source = match (&question, &silhouettes) {
+        (Some(question), _) => question.tested.source(2),
+        (None, Some(silhouettes)) => silhouettes.source(2),
+        (None, None) => choice.source(2),
     };
-    let model = Observed::new(models.source(2), image.size);
+    let model = Observed::new(source, image.size);
     let freedoms =
         request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
+    if let Some(question) = &mut question {
+        question.seek(model.parameters(), &freedoms);
+    }
+    let models: &dyn Models = match (&question, &silhouettes) {
+        (Some(question), _) => &question.tested,
+        (None, Some(silhouettes)) => silhouettes,
+        (None, None) => &choice,
+    };
     let kept = arguments
         .output
         .as_deref()
-        .map(|name| kept(arguments, name, image, (choice.name, &request)))
+        .map(|name| kept(arguments, name, image, (choice.name, &request, question.as_ref())))
         .transpose()?;
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
@@ -193,8 +228,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         fault => wrong(fault),
     })?;
     found.warnings.extend(seen.iter().flat_map(Silhouette::warnings));
+    let answers = question.map(|q| q.answers(&found, model.parameters(), &options.freedoms));
     let output = Output {
         model: choice.name.name(),
+        spacetime: arguments.spacetime.as_deref(),
+        tests: answers.as_deref(),
         parameters: &found.estimates,
         converged: found.converged,
         good: found.good,
@@ -308,14 +346,21 @@ fn kept(
     arguments: &Arguments,
     name: &Path,
     image: &Image,
-    (model, request): (Name, &Request),
+    (model, request, question): (Name, &Request, Option<&Question>),
 ) -> Result<Kept, Failure> {
     let mut path = name.as_os_str().to_owned();
     path.push(".checkpoint");
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {}",
-        image.size, request, model, arguments.projection, arguments.orders, arguments.noise, arguments.seed
+        "{:?} {:?} {:?} {:?} {:?} {:?} {} {:?}",
+        image.size,
+        request,
+        model,
+        arguments.projection,
+        arguments.orders,
+        arguments.noise,
+        arguments.seed,
+        question.map(|question| &question.tested.theory)
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
     let path = Path::new(&path);
@@ -401,6 +446,7 @@ fn table(output: &Output<'_>) -> String {
         output.evaluations,
         output.wall_s
     );
+    text.push_str(&output.tests.map(theory::lines).unwrap_or_default());
     for warning in output.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }

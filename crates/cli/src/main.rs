@@ -19,6 +19,7 @@ mod side_view;
 mod source;
 mod spacetime;
 mod spectrum;
+mod theory;
 mod thesis;
 mod trace;
 mod validate;

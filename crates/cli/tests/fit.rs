@@ -124,6 +124,16 @@ fn faults() {
         &["--silhouette is a model", "--orders is for silhouettes"],
     );
     refused(&["ring.png", "--silhouette", "--noise", "0.1"], &["leave --noise away"]);
+    // Theories: what is none, what has no disk, what a number of the text may not be, and names that there are not.
+    refused(&["ring.png", "--spacetime", "newton"], &["neither a file", "johannsen", "kerr-newman"]);
+    refused(&["ring.png", "--spacetime", "two-kerr"], &["two-kerr", "all around the z axis"]);
+    refused(&["ring.png", "--spacetime", "ellis"], &["ellis"]);
+    refused(&["ring.png", "--spacetime", "johannsen", "--model", "ring"], &["page-thorne or power-law"]);
+    refused(
+        &["ring.png", "--spacetime", "johannsen", "--null", "b13=0", "--null", "a13"],
+        &["no parameter \"b13\"", "a13", "NAME=VALUE"],
+    );
+    refused(&["ring.png", "--spacetime", "johannsen", "--free", "a13"], &["a13=uniform(-1, 1)"]);
     refused(&["none.png"], &["none.png"]);
     std::fs::write(folder.path().join("text.png"), "no picture").unwrap();
     refused(&["text.png"], &["text.png"]);

@@ -89,7 +89,10 @@ impl Coordinates {
                 _ if matches!(prior, Prior::LogUniform(..)) => Kind::BetweenLogs(low, high),
                 _ if low.is_finite() && high.is_finite() => Kind::Between(low, high),
                 _ if low >= 0.0 => Kind::Positive,
-                _ => Kind::Anywhere(sizes[k].abs().max(f64::MIN_POSITIVE)),
+                _ => Kind::Anywhere(match prior {
+                    Prior::Normal(_, deviation) => deviation,
+                    _ => sizes[k].abs().max(f64::MIN_POSITIVE),
+                }),
             };
             let other = match (kind, freedoms.get(k + 1)) {
                 (Kind::Axis, Some(Freedom::Free(prior))) => *prior,

@@ -4,6 +4,7 @@ mod blur;
 pub mod chains;
 mod coordinates;
 pub mod diagnostics;
+pub mod evidence;
 pub mod fit;
 pub mod likelihood;
 pub mod mode;

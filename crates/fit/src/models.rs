@@ -1,9 +1,11 @@
 //! The models that a picture can be compared with, by their names.
 
+use std::sync::Arc;
+
 use crate::fit::Models;
 use crate::model::Source;
 use crate::ring::Ring;
-use crate::traced::{Disk, Fineness, Kind, Lit, Outline, Projection};
+use crate::traced::{Disk, Fineness, Kind, Light, Lit, Outline, Projection, TextDisk, Theory};
 
 /// A model by its name.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
@@ -79,5 +81,46 @@ impl Models for Choice {
                 Box::new(Lit::new(outline, self.projection, fineness))
             }
         }
+    }
+}
+
+/// An opaque disk in a spacetime given as text.
+#[derive(Clone, Debug)]
+pub struct Tested {
+    /// The text.
+    pub theory: Arc<Theory>,
+    /// Whether the disk has the flux of Page & Thorne or a power of the radius.
+    pub kind: Kind,
+    /// How directions become places.
+    pub projection: Projection,
+    /// Names of the parameters that are looked for, of which derivatives are wanted; all if there are none.
+    pub free: Vec<String>,
+}
+
+impl Tested {
+    /// In which of the models' disks a theory can be tested.
+    ///
+    /// # Errors
+    /// If in no such.
+    pub fn kind(name: Name) -> Result<Kind, String> {
+        match name {
+            Name::PageThorne => Ok(Kind::PageThorne),
+            Name::PowerLaw => Ok(Kind::PowerLaw),
+            other => Err(format!(
+                "the model {} knows no other spacetime than Kerr's: give {} or {}",
+                other.name(),
+                Name::PageThorne.name(),
+                Name::PowerLaw.name()
+            )),
+        }
+    }
+}
+
+impl Models for Tested {
+    fn source(&self, fineness: usize) -> Box<dyn Source> {
+        let theory = Arc::clone(&self.theory);
+        let light = if fineness == 0 { Light::Kerr } else { Light::Own };
+        let wanted = (light, self.free.clone());
+        Box::new(TextDisk::new(theory, self.kind, self.projection, Choice::fineness(fineness), wanted))
     }
 }

@@ -87,6 +87,9 @@ fn freedom(parameter: &Parameter, words: &str) -> Result<Freedom, String> {
             Freedom::Fixed(_) if *name == "background" => {
                 Ok(Freedom::Free(crate::Prior::Uniform(f64::NEG_INFINITY, f64::INFINITY)))
             }
+            Freedom::Fixed(_) if low.is_infinite() => Err(format!(
+                "{name}: say with --prior between which values it is free, as '{name}=uniform(-1, 1)'"
+            )),
             Freedom::Fixed(_) => Err(format!(
                 "{name}: say between which values it is free, as {name}=log-uniform({low}, 1000)"
             )),

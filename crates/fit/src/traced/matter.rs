@@ -2,6 +2,8 @@
 
 use kerrscope::spacetime::emitter::PageThorne;
 
+use super::shine::Shine;
+
 /// How the flux from the disk depends on the radius, in the frame of the matter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Profile {
@@ -68,9 +70,10 @@ impl Matter {
         }
         matter
     }
+}
 
-    /// F, dF/dr, dF/da and dF/dq at r = x⁻².
-    pub fn flux(&self, x: f64) -> [f64; 4] {
+impl Shine for Matter {
+    fn flux(&self, x: f64) -> [f64; 4] {
         let r = x.powi(-2);
         match self.profile {
             Profile::Even => [1.0, 0.0, 0.0, 0.0],
@@ -98,7 +101,7 @@ impl Matter {
     /// ```text
     /// g = N/[(1 + a r^{−3/2})(1 − Ωλ)],   N² = 1 − 3/r + 2a r^{−3/2},   Ω = 1/(r^{3/2} + a).
     /// ```
-    pub fn glow(&self, x: f64, lambda: f64) -> Glow {
+    fn glow(&self, x: f64, lambda: f64) -> Glow {
         if self.profile == Profile::Even {
             return Glow { value: 1.0, ..Glow::default() };
         }
@@ -128,18 +131,8 @@ impl Matter {
         }
     }
 
-    /// Whether all of it is equally bright.
-    pub fn even(&self) -> bool {
+    fn even(&self) -> bool {
         self.profile == Profile::Even
-    }
-
-    /// A length over which the flux bends, M: √(F_max/|F″|) for the largest flux between both ends of the table.
-    pub fn smoothness(&self, x: f64, largest: f64) -> f64 {
-        let r = x.powi(-2);
-        let h = 0.01 * r;
-        let at = |r: f64| self.flux(r.powf(-0.5))[0];
-        let bend = (at(r + h) - 2.0 * at(r) + at(r - h)) / (h * h);
-        (largest / bend.abs().max(1e-300)).sqrt()
     }
 }
 

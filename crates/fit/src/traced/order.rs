@@ -44,13 +44,15 @@ pub struct View {
     pub inclination: f64,
     /// 1/r of the observer.
     pub u: f64,
+    /// What a changes by with the first of the hole's parameters: 1 where that is a.
+    pub turn: f64,
 }
 
 impl View {
     /// α of the centre of polar coordinates, and its derivatives.
     pub fn center(&self) -> (f64, [f64; HOLE]) {
         let (sin, cos) = self.inclination.sin_cos();
-        (-self.spin * sin, [-sin, -self.spin * cos, 0.0])
+        (-self.spin * sin, [-sin * self.turn, -self.spin * cos, 0.0])
     }
 
     /// q: how flat the disk is, but for what its light's bending does.

@@ -13,9 +13,10 @@ use kerrscope::spacetime::kerr::Orbits;
 use super::canvas::{Canvas, Layout};
 use super::lines::{Around, Lines};
 use super::matter::{Matter, Profile};
-use super::order::{HOLE, NotFound, ORDERS, View, solve};
+use super::order::{HOLE, Nodes, NotFound, ORDERS, View, solve};
 use super::pieces::{MOVES, Rates};
 use super::screen::{Frame, Projection, Screen};
+use super::shine::Shine;
 use super::sketch::Sketch;
 use super::strips::Painting;
 
@@ -85,6 +86,86 @@ const DIRECTIONS: [usize; 5] = [32, 64, 128, 256, 512];
 /// The size of the last terms around, as a share of the first, at which a series is long enough.
 const CONVERGED: f64 = 3e-6;
 
+/// A disk as it is seen: where its edges lie, and how they move.
+pub(super) struct Stand<'a> {
+    /// The disk.
+    pub setting: &'a Setting,
+    /// The observer, or its mirror image above the plane.
+    pub view: View,
+    /// x of the inner edge.
+    pub inner: f64,
+    above: bool,
+    rates: Rates,
+    /// x of the outer edge, if it lies within the picture.
+    bound: Option<f64>,
+    /// M from the middle of the polar coordinates to the picture's farthest corner.
+    reach: f64,
+}
+
+/// The image of an order at its nodes.
+pub(super) struct Image {
+    /// Which number of directions it has.
+    choice: usize,
+    /// The nodes.
+    pub nodes: Nodes,
+    /// x of the outer edge in each direction.
+    pub ends: Vec<f64>,
+}
+
+impl Image {
+    /// The same directions with other nodes and ends.
+    pub fn replaced(&self, nodes: Nodes, ends: Vec<f64>) -> Self {
+        Self { choice: self.choice, nodes, ends }
+    }
+}
+
+impl<'a> Stand<'a> {
+    /// With the radius of the last stable orbit and its derivative in the first of the hole's parameters, with which the spin changes
+    /// by `turn`.
+    pub fn new(setting: &'a Setting, (isco, isco_rate): (f64, f64), turn: f64) -> Self {
+        let above = setting.inclination <= FRAC_PI_2;
+        let inclination = if above { setting.inclination } else { PI - setting.inclination };
+        let view = View { spin: setting.spin, inclination, u: setting.u, turn };
+        let (radius, radius_rates) = setting.inner_edge((isco, isco_rate));
+        let inner = radius.powf(-0.5);
+        let mut inner_rates = [0.0; MOVES];
+        inner_rates[0] = -0.5 * inner * radius_rates[0] / radius;
+        inner_rates[HOLE] = -0.5 * inner * radius_rates[1] / radius;
+        let bounded = setting.outer * setting.u <= 0.5 && setting.outer.is_finite();
+        let bound = bounded.then(|| setting.outer.powf(-0.5));
+        let outer_rates = bound.map(|outer| {
+            let mut moves = [0.0; MOVES];
+            moves[HOLE + 1] = -0.5 * outer / setting.outer;
+            moves
+        });
+        let rates = Rates { edges: [Some(inner_rates), outer_rates] };
+        let Frame { size, scale, center, .. } = setting.frame;
+        let half = [0, 1].map(|k| 0.5 * size[k] as f64 + center[k].abs());
+        let reach = half[0].hypot(half[1]) * scale + view.center().0.abs();
+        Self { setting, view, inner, above, rates, bound, reach }
+    }
+
+    /// x between which matter is asked for.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.bound.unwrap_or(FAR_X), self.inner]
+    }
+
+    /// x of the outer edge of an image in a direction.
+    fn outer(&self, order: usize, chi: f64) -> f64 {
+        // Images of higher orders have all of a disk without an outer edge next to the critical curve.
+        match (self.bound, order) {
+            (Some(bound), _) => bound,
+            (None, 0) => cover(&self.view, self.reach, self.view.angle(chi)[0]).min(0.9 * self.inner),
+            (None, _) => FAR_X,
+        }
+    }
+
+    /// The same in equal steps around.
+    pub fn outers(&self, order: usize, directions: usize) -> Vec<f64> {
+        (0..directions).map(|j| self.outer(order, 2.0 * PI * j as f64 / directions as f64)).collect()
+    }
+}
+
 /// Draws disks.
 #[derive(Debug)]
 pub struct Painter {
@@ -131,84 +212,73 @@ impl Painter {
     /// # Errors
     /// If the disk has no picture.
     pub fn draw(&self, setting: &Setting, derivatives: bool) -> Result<Canvas, Unseen> {
-        let above = setting.inclination <= FRAC_PI_2;
-        let inclination = if above { setting.inclination } else { PI - setting.inclination };
-        let view = View { spin: setting.spin, inclination, u: setting.u };
-        let screen =
-            Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection);
-        let (radius, radius_rates) = setting.inner_edge();
-        let inner = radius.powf(-0.5);
-        let mut rates = Rates { edges: [Some([0.0; MOVES]), None] };
-        if let Some(inner_rates) = &mut rates.edges[0] {
-            inner_rates[0] = -0.5 * inner * radius_rates[0] / radius;
-            inner_rates[HOLE] = -0.5 * inner * radius_rates[1] / radius;
-        }
-        let bounded = setting.outer * setting.u <= 0.5 && setting.outer.is_finite();
-        let outer_x = setting.outer.powf(-0.5);
-        if bounded {
-            let mut moves = [0.0; MOVES];
-            moves[HOLE + 1] = -0.5 * outer_x / setting.outer;
-            rates.edges[1] = Some(moves);
-        }
-        let reach = Self::reach(setting, &view);
-        // Images of higher orders have all of a disk without an outer edge next to the critical curve.
-        let outer = |order: usize, chi: f64| match order {
-            _ if bounded => outer_x,
-            0 => cover(&view, reach, view.angle(chi)[0]).min(0.9 * inner),
-            _ => FAR_X,
-        };
-        let ends = [if bounded { outer_x } else { FAR_X }, inner];
-        let matter = Matter::new(setting.spin, setting.profile, ends);
-        let mut images = Vec::new();
-        for order in 0..self.fineness.orders.min(ORDERS) {
-            images.push(self.image(&view, order, (inner, &|chi| outer(order, chi)), derivatives)?);
-        }
-        let sketch = Sketch { above, setting, view: &view, screen: &screen, matter: &matter, derivatives };
-        let size = setting.frame.size;
-        let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
-        for (order, image) in images.iter().enumerate() {
-            let before = if self.opaque { &images[..order] } else { &[] };
-            let rows = thinned(&self.rows(&matter, [inner, outer(order, 0.0)]), order);
-            Painting { sketch: &sketch, image, before, rates: &rates, rows: &rows }
-                .draw(self.fineness.lines, &mut canvas);
-        }
-        Ok(canvas)
+        let stand = Stand::new(setting, last_stable_orbit(setting.spin), 1.0);
+        let matter = Matter::new(setting.spin, setting.profile, stand.ends());
+        let images = self
+            .orders()
+            .map(|order| self.image(&stand, order, derivatives))
+            .collect::<Result<Vec<_>, _>>()?;
+        let lambda = [0.0, -setting.inclination.sin()];
+        Ok(self.paint(&stand, (&matter, lambda), &images, derivatives))
     }
 
-    /// M from the middle of the polar coordinates to the picture's farthest corner.
-    fn reach(setting: &Setting, view: &View) -> f64 {
-        let Frame { size, scale, center, .. } = setting.frame;
-        let half = [0, 1].map(|k| 0.5 * size[k] as f64 + center[k].abs());
-        half[0].hypot(half[1]) * scale + view.center().0.abs()
+    /// The image orders that are drawn.
+    pub(super) fn orders(&self) -> std::ops::Range<usize> {
+        0..self.fineness.orders.min(ORDERS)
+    }
+
+    /// The picture of what shines, in the light of λ = λ₀ + λ₁ α, from the nodes of its images.
+    pub(super) fn paint(
+        &self,
+        stand: &Stand<'_>,
+        (matter, lambda): (&dyn Shine, [f64; 2]),
+        images: &[Image],
+        derivatives: bool,
+    ) -> Canvas {
+        let Stand { setting, view, inner, rates, above, .. } = stand;
+        let screen =
+            Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection)
+                .turning(view.turn);
+        let sketch = Sketch { above: *above, setting, view, screen: &screen, matter, lambda, derivatives };
+        let lines: Vec<Lines> =
+            images.iter().enumerate().map(|(order, image)| self.lines(view, order, *inner, image)).collect();
+        let size = setting.frame.size;
+        let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
+        for (order, image) in lines.iter().enumerate() {
+            let before = if self.opaque { &lines[..order] } else { &[] };
+            let rows = thinned(&self.rows(matter, [*inner, stand.outer(order, 0.0)]), order);
+            Painting { sketch: &sketch, image, before, rates, rows: &rows }
+                .draw(self.fineness.lines, &mut canvas);
+        }
+        canvas
     }
 
     /// The image of an order along the lines.
-    fn image(
-        &self,
-        view: &View,
-        order: usize,
-        (inner, outer): (f64, &impl Fn(f64) -> f64),
-        derivatives: bool,
-    ) -> Result<Lines, Unseen> {
+    fn lines(&self, view: &View, order: usize, inner: f64, image: &Image) -> Lines {
+        let around = self.around[image.choice]
+            .get_or_init(|| Around::new(DIRECTIONS[image.choice], self.fineness.lines));
+        Lines::new(view, order, &image.nodes, around, inner, &image.ends)
+    }
+
+    /// The image of an order around a Kerr hole, and how it moves if asked for.
+    pub(super) fn image(&self, stand: &Stand<'_>, order: usize, derivatives: bool) -> Result<Image, Unseen> {
+        let view = &stand.view;
         let mut first = if view.inclination.cos() > 0.5 { 1 } else { 2 };
         if view.inclination.cos() < 0.2 {
             first = 3;
         }
         for (choice, directions) in DIRECTIONS.into_iter().enumerate().skip(first) {
-            let ends: Vec<f64> =
-                (0..directions).map(|j| outer(2.0 * PI * j as f64 / directions as f64)).collect();
-            let nodes = solve(view, &self.landings, order, (inner, &ends), derivatives)?;
-            if choice + 1 < DIRECTIONS.len() && nodes.tail() > CONVERGED {
-                continue;
+            let ends = stand.outers(order, directions);
+            let nodes = solve(view, &self.landings, order, (stand.inner, &ends), derivatives)?;
+            if choice + 1 == DIRECTIONS.len() || nodes.tail() <= CONVERGED {
+                return Ok(Image { choice, nodes, ends });
             }
-            let around = self.around[choice].get_or_init(|| Around::new(directions, self.fineness.lines));
-            return Ok(Lines::new(view, order, &nodes, around, inner, &ends));
         }
         Err(Unseen)
     }
 
     /// t of the rows of the direct image: close where the flux bends.
-    fn rows(&self, matter: &Matter, [inner, outer]: [f64; 2]) -> Vec<f64> {
+    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2]) -> Vec<f64> {
         if matter.even() {
             // What is the same everywhere has edges alone.
             return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
@@ -253,9 +323,8 @@ fn thinned(rows: &[f64], order: usize) -> Vec<f64> {
 }
 
 impl Setting {
-    /// Radius of the inner edge, and its derivatives in spin and `inner`.
-    fn inner_edge(&self) -> (f64, [f64; 2]) {
-        let (isco, isco_rate) = last_stable_orbit(self.spin);
+    /// Radius of the inner edge, and its derivatives in spin and `inner`, from the radius of the last stable orbit and its derivative.
+    fn inner_edge(&self, (isco, isco_rate): (f64, f64)) -> (f64, [f64; 2]) {
         if self.profile != Profile::Even {
             return (isco * self.inner, [isco_rate * self.inner, isco]);
         }
@@ -271,7 +340,7 @@ impl Setting {
 const OUTSIDE: f64 = 1.0 + 1e-6;
 
 /// Radius of the last stable orbit about +z, and its derivative in a.
-fn last_stable_orbit(spin: f64) -> (f64, f64) {
+pub(super) fn last_stable_orbit(spin: f64) -> (f64, f64) {
     let step = 1e-6;
     let ends = [(spin - step).max(-1.0), (spin + step).min(1.0)];
     let at = |a: f64| Orbits::new(a).isco;

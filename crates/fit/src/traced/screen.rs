@@ -77,6 +77,20 @@ impl Screen {
         Self { frame, projection, u, side, roll: [cos, sin], offset, stretch }
     }
 
+    /// The same for another parameter than a, with which a changes by `turn`.
+    pub fn turning(mut self, turn: f64) -> Self {
+        self.offset.gradient[0] *= turn;
+        for stretch in &mut self.stretch {
+            stretch.gradient[0] *= turn;
+        }
+        self
+    }
+
+    /// The direction of light of impact parameters (α, β): components along e_φ and −e_θ, times r.
+    pub fn towards(&self, [alpha, beta]: [f64; 2]) -> [f64; 2] {
+        [(alpha - self.offset.value) * self.stretch[0].value, beta * self.stretch[1].value]
+    }
+
     /// Direction times r, (right, up), from a place in M from the centre.
     #[cfg(test)]
     fn direction(&self, [x, y]: [f64; 2]) -> [f64; 2] {

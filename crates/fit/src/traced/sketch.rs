@@ -2,11 +2,11 @@
 
 use super::canvas::{CHANNELS, Canvas, Corner, MOVERS};
 use super::lines::{Lines, Point};
-use super::matter::Matter;
 use super::order::{HOLE, View};
 use super::picture::{AT_EDGES, AT_FRAME, AT_HOLE, Setting};
 use super::pieces::MOVES;
 use super::screen::{SCREEN, Screen};
+use super::shine::Shine;
 use super::strips::Strip;
 
 /// What corners are computed from.
@@ -20,7 +20,9 @@ pub struct Sketch<'a> {
     /// Its screen.
     pub screen: &'a Screen,
     /// What shines.
-    pub matter: &'a Matter,
+    pub matter: &'a dyn Shine,
+    /// λ at α = 0, and what it changes by with α.
+    pub lambda: [f64; 2],
     /// Whether derivatives are wanted.
     pub derivatives: bool,
 }
@@ -45,8 +47,8 @@ impl Sketch<'_> {
         let [cos, sin, ..] = image.rays[line];
         let (center, center_moves) = self.center();
         let impact = [center + point.rho * cos, point.rho * sin];
-        let sin_i = self.setting.inclination.sin();
-        let glow = self.matter.glow(point.x, -impact[0] * sin_i);
+        let [lambda, per_alpha] = self.lambda;
+        let glow = self.matter.glow(point.x, lambda + per_alpha * impact[0]);
         let spot = self.screen.spot(impact);
         if !self.derivatives {
             return Corner::new(spot.pixel, glow.value, [0.0; 4], [[0.0; 2]; MOVERS]);
@@ -62,7 +64,7 @@ impl Sketch<'_> {
             if k < HOLE {
                 let along = self.own(k, point.drift[k]);
                 own = [center_moves[k] + along * cos, along * sin];
-                glows[k] -= glow.lambda * sin_i * own[0];
+                glows[k] += glow.lambda * per_alpha * own[0];
             }
             if k == 1 {
                 glows[1] -= glow.lambda * impact[0] * self.setting.inclination.cos();

@@ -52,7 +52,7 @@ pub struct LineElement {
     axisymmetric: bool,
     coordinates: [String; 4],
     kind: Kind,
-    parameters: Vec<(String, f64)>,
+    definition: Definition,
 }
 
 impl LineElement {
@@ -120,7 +120,7 @@ impl LineElement {
             axisymmetric: false,
             coordinates: definition.coordinates.clone(),
             kind: definition.kind,
-            parameters: definition.parameters.clone(),
+            definition: definition.clone(),
         };
         element.axisymmetric = super::check::is_axisymmetric(&element);
         if element.reversal == Reversal::Mirror && !element.axisymmetric {
@@ -144,7 +144,21 @@ impl LineElement {
 
     /// Its parameters with their values.
     pub fn parameters(&self) -> &[(String, f64)] {
-        &self.parameters
+        &self.definition.parameters
+    }
+
+    /// The same metric with other values of some of its parameters; names that it has not are left alone.
+    ///
+    /// # Errors
+    /// What is wrong with these values.
+    pub fn with(&self, parameters: &[(&str, f64)]) -> Result<Self, Vec<DefinitionFault>> {
+        let mut definition = self.definition.clone();
+        for (name, value) in &mut definition.parameters {
+            if let Some((_, given)) = parameters.iter().find(|(given, _)| given == name) {
+                *value = *given;
+            }
+        }
+        Self::compile(&definition)
     }
 
     /// Whether nothing depends on time.
