@@ -100,7 +100,7 @@ fn pictures_of_other_things() {
             && !disk(x, y, [0.62, 0.5, 0.06])
     };
     draw(&folder.path().join("cat.png"), 96, cat);
-    draw(&folder.path().join("stripes.png"), 96, |x, _| (x * 12.0) as u32 % 2 == 0);
+    draw(&folder.path().join("stripes.png"), 96, |x, _| ((x * 12.0) as u32).is_multiple_of(2));
     draw(&folder.path().join("dot.png"), 96, |x, y| disk(x, y, [0.5, 0.5, 0.2]));
     draw(&folder.path().join("two.png"), 2, |x, _| x < 0.5);
     let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes/");
