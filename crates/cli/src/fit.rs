@@ -50,7 +50,7 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     own, whose numbers are parameters too: spin is looked for, the others keep the values of the text unless --prior frees them.\n\
     For each that was free the report says what speaks for its value in Kerr's spacetime, 0 or that of --null NAME=VALUE: the\n\
     Bayes factor K of that value against all that the prior allows (Savage & Dickey), which depends on how wide the prior is.\n\
-    A mass in the text stays as it is, as the unit; the observer is at rest at the distance from the origin of its coordinates.\n\n\
+    A mass in the text stays as it is, as the unit; the observer is at rest, 1000 from the origin of its coordinates or at --distance.\n\n\
     With --output NAME it writes NAME.json, NAME.chain.h5 (chains for h5py and arviz), NAME.corner.svg, NAME.residual.png and\n\
     NAME.residual.fits; interrupted, it goes on with --resume.\n\n\
     --format json prints one object: model, parameters (a list of name, unit, mode, mean, sd, q025, q16, q50, q84, q975, free, r_hat,\n\

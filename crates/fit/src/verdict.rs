@@ -94,6 +94,14 @@ pub fn judge(
             )),
             _ => {}
         }
+        if parameter.name == "distance" && high - estimate.q975 < 0.2 * high {
+            // Far away all distances look alike: its range's end is a choice, no fault.
+            warnings.push(format!(
+                "how far away the observer is cannot be told beyond {:.0} M; --distance gives it where it is known",
+                estimate.q025
+            ));
+            continue;
+        }
         if parameter.name != "position_angle" && estimate.sd > WIDE * wide {
             warnings.push(format!(
                 "{} is hardly told by the picture: its posterior is as wide as its prior {prior}",

@@ -319,6 +319,8 @@ impl Source for TextDisk {
         let common = disk.parameters().into_iter().filter(|p| p.name != SPIN).map(|mut parameter| {
             if parameter.name == "distance" {
                 parameter.bounds[1] = parameter.bounds[1].min(1e5);
+                // Its derivative costs two more pictures.
+                parameter.usual = Freedom::Fixed(1000.0);
             }
             parameter
         });
