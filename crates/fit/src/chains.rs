@@ -8,7 +8,7 @@
 //!
 //! A round of draws is a function of the round before and of the seed, whatever the number of threads.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::likelihood::{Ask, Posterior};
+use crate::metric::Metric;
 use crate::mode::Mode;
 use crate::model::Source;
 use crate::nuts::{Pace, State, step};
@@ -60,63 +61,6 @@ pub struct Draws {
     pub evaluations: usize,
     /// Leaps that were tried, and that were accepted.
     pub leaps: [usize; 2],
-}
-
-/// Coordinates in which chains are run: q = origin + matrix · y.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Metric {
-    origin: Vec<f64>,
-    matrix: DMatrix<f64>,
-    inverse: DMatrix<f64>,
-}
-
-impl Metric {
-    fn of(origin: Vec<f64>, matrix: DMatrix<f64>) -> Self {
-        let n = matrix.nrows();
-        let inverse = matrix.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
-        Self { origin, matrix, inverse }
-    }
-
-    /// That of the Gaussian around a mode.
-    fn around(mode: &Mode) -> Self {
-        let n = mode.place.len();
-        let mut matrix = DMatrix::zeros(n, n);
-        for k in 0..n {
-            let mut unit = vec![0.0; n];
-            unit[k] = 1.0;
-            let moved = mode.at(&unit);
-            for row in 0..n {
-                matrix[(row, k)] = moved[row] - mode.place[row];
-            }
-        }
-        Self::of(mode.place.clone(), matrix)
-    }
-
-    /// That of draws, with the present one counting as some of them.
-    fn shaped_by(&self, places: &[Vec<f64>]) -> Self {
-        let n = self.origin.len();
-        let count = places.len() as f64;
-        let inner: Vec<DVector<f64>> = places.iter().map(|q| self.inside(q)).collect();
-        let mean: DVector<f64> = inner.iter().fold(DVector::zeros(n), |sum, y| sum + y) / count;
-        let mut covariance = DMatrix::identity(n, n) * (10.0 / (count + 10.0));
-        for y in &inner {
-            let offset = y - &mean;
-            covariance += &offset * offset.transpose() / (count + 10.0);
-        }
-        let lower = crate::mode::factor(covariance).l();
-        let origin = self.outside(mean.as_slice());
-        Self::of(origin, &self.matrix * lower)
-    }
-
-    fn outside(&self, y: &[f64]) -> Vec<f64> {
-        let moved = &self.matrix * DVector::from_column_slice(y);
-        self.origin.iter().zip(moved.iter()).map(|(a, b)| a + b).collect()
-    }
-
-    fn inside(&self, q: &[f64]) -> DVector<f64> {
-        let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.origin).map(|(a, b)| a - b));
-        &self.inverse * offset
-    }
 }
 
 /// All chains after a round.
@@ -228,7 +172,13 @@ impl<S: Source> Field<'_, S> {
                 }
             })
             .collect();
-        let places = || draws.iter().flat_map(|d| d.places.iter().cloned()).collect::<Vec<Vec<f64>>>();
+        let places = || {
+            let mut places: Vec<Vec<f64>> = draws.iter().flat_map(|d| d.places.iter().cloned()).collect();
+            for place in &mut places {
+                self.posterior.coordinates.near(place, &self.modes[0].place);
+            }
+            places
+        };
         if round + 1 == TRIED.len() {
             let [tried, accepted] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
             chains.trajectories = (accepted as f64) < LEAPING * tried as f64;
@@ -312,16 +262,20 @@ impl<S: Source> Field<'_, S> {
                 chain.state = state;
                 draws.evaluations += 1;
             }
-            let size = if warm.is_some() { chain.pace.size() } else { chain.pace.settled() };
-            // Steps of many sizes: trajectories of one length may be periodic.
-            let size = size * (0.9 + 0.2 * rng.random::<f64>());
-            let (state, step) = step(&mut target, &chain.state, size, rng);
-            chain.state = state;
-            if warm.is_some() {
-                chain.pace.learn(step.acceptance);
+            // From a place without a gradient there is no trajectory, and none enters one.
+            if !chain.state.gradient.is_empty() {
+                let size = if warm.is_some() { chain.pace.size() } else { chain.pace.settled() };
+                // Steps of many sizes: trajectories of one length may be periodic.
+                let size = size * (0.9 + 0.2 * rng.random::<f64>());
+                let (state, step) = step(&mut target, &chain.state, size, rng);
+                chain.state = state;
+                if warm.is_some() {
+                    chain.pace.learn(step.acceptance);
+                }
+                draws.evaluations += step.evaluations;
+                draws.diverged += usize::from(step.diverged && warm.is_none());
             }
-            draws.evaluations += step.evaluations + 1;
-            draws.diverged += usize::from(step.diverged && warm.is_none());
+            draws.evaluations += 1;
             draws.leaps[0] += 1;
             draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
             draws.places.push(metric.outside(&chain.state.z));
@@ -355,10 +309,18 @@ impl<S: Source> Field<'_, S> {
             .map_or(1.0, |chi| (FREEDOM / Distribution::<f64>::sample(&chi, rng).max(1e-3)).sqrt());
         let z: Vec<f64> =
             mode.place.iter().map(|_| stretch * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
-        let from = metric.outside(&chain.state.z);
+        // Places that differ by whole turns are one: those within half a turn of the best mode stand for all.
+        let (coordinates, center) = (self.posterior.coordinates, &self.modes[0].place);
+        let mut from = metric.outside(&chain.state.z);
+        coordinates.near(&mut from, center);
         // The only mode has the shape that draws have shown.
         let to = if self.modes.len() == 1 { metric.outside(&z) } else { mode.at(&z) };
         let chance: f64 = rng.random();
+        let mut within = to.clone();
+        coordinates.near(&mut within, center);
+        if within != to {
+            return false;
+        }
         let Some(found) = self.posterior.at(&to, Ask::Value) else { return false };
         let gain = found.log - chain.state.log + self.density(metric, &from) - self.density(metric, &to);
         let accepted = chance.ln() < gain;

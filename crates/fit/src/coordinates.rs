@@ -4,6 +4,8 @@
 //! size. Inclination i and position angle χ are those of an axis in space: v = 2 tan(i/2) (cos χ, sin χ), the stereographic projection
 //! from the direction away from the observer, so that a disk seen face-on is a place like any other.
 
+use std::f64::consts::{PI, TAU};
+
 use crate::model::{Freedom, Parameter};
 use crate::prior::Prior;
 
@@ -14,8 +16,8 @@ enum Kind {
     Between(f64, f64),
     /// Between positive bounds, in the logarithm.
     BetweenLogs(f64, f64),
-    /// Above 0.
-    Positive,
+    /// Above a bound.
+    Above(f64),
     /// Anywhere, of about this size.
     Anywhere(f64),
     /// An angle in degrees.
@@ -88,7 +90,7 @@ impl Coordinates {
                 "position_angle" => Kind::Turn,
                 _ if matches!(prior, Prior::LogUniform(..)) => Kind::BetweenLogs(low, high),
                 _ if low.is_finite() && high.is_finite() => Kind::Between(low, high),
-                _ if low >= 0.0 => Kind::Positive,
+                _ if low.is_finite() => Kind::Above(low),
                 _ => Kind::Anywhere(match prior {
                     Prior::Normal(_, deviation) => deviation,
                     _ => sizes[k].abs().max(f64::MIN_POSITIVE),
@@ -130,7 +132,7 @@ impl Coordinates {
                     let share = ((value / low).ln() / (high / low).ln()).clamp(1e-6, 1.0 - 1e-6);
                     coordinates.push((share / (1.0 - share)).ln());
                 }
-                Kind::Positive => coordinates.push(value.max(1e-300).ln()),
+                Kind::Above(low) => coordinates.push((value - low).max(1e-300).ln()),
                 Kind::Anywhere(size) => coordinates.push(value / size),
                 Kind::Turn => coordinates.push(value.to_radians()),
                 Kind::Axis => {
@@ -141,6 +143,17 @@ impl Coordinates {
             }
         }
         coordinates
+    }
+
+    /// Takes whole turns off a place, so that its angles lie within half a turn of another's.
+    pub fn near(&self, place: &mut [f64], other: &[f64]) {
+        let mut at = 0;
+        for sought in &self.sought {
+            if sought.kind == Kind::Turn {
+                place[at] -= TAU * ((place[at] - other[at]) / TAU).round();
+            }
+            at += if sought.kind == Kind::Axis { 2 } else { 1 };
+        }
     }
 
     /// Parameters at coordinates.
@@ -173,10 +186,10 @@ impl Coordinates {
                     let jacobian = [(value * both).ln(), rate + 1.0 - 2.0 * share, 2.0 * both];
                     place.one(k, value, value * rate, sought.prior, jacobian);
                 }
-                Kind::Positive => {
+                Kind::Above(low) => {
                     let q = take();
-                    let value = q.clamp(-600.0, 600.0).exp();
-                    place.one(k, value, value, sought.prior, [q, 1.0, 0.0]);
+                    let rise = q.clamp(-600.0, 600.0).exp();
+                    place.one(k, low + rise, rise, sought.prior, [q, 1.0, 0.0]);
                 }
                 Kind::Anywhere(size) => place.one(k, take() * size, size, sought.prior, [0.0; 3]),
                 Kind::Turn => {
@@ -189,7 +202,8 @@ impl Coordinates {
                         (place.gradient.last_mut(), place.curvature.last_mut())
                     {
                         *slope += rate * degree;
-                        *curve += bend * degree * degree;
+                        // An angle of which nothing is known has the variance π²/3.
+                        *curve = (*curve + bend * degree * degree).max(3.0 / PI.powi(2));
                     }
                 }
                 Kind::Axis => place.axis(k, [take(), take()], [sought.prior, sought.other]),

@@ -96,6 +96,9 @@ fn density(prior: &Prior, [low, high]: [f64; 2], x: f64) -> Option<f64> {
     if !(x >= low && x <= high) {
         return None;
     }
+    if let Prior::LogUniform(..) = prior {
+        return (low > 0.0 && high.is_finite() && low < high).then(|| 1.0 / (x * (high / low).ln()));
+    }
     let [from, to] = match *prior {
         Prior::Normal(mean, deviation) => {
             [low.max(mean - 10.0 * deviation), high.min(mean + 10.0 * deviation)]

@@ -7,6 +7,7 @@ pub mod diagnostics;
 pub mod evidence;
 pub mod fit;
 pub mod likelihood;
+mod metric;
 pub mod mode;
 pub mod model;
 pub mod models;

@@ -1,7 +1,8 @@
 //! How well parameters explain a picture.
 //!
 //! Pixels are independent Gaussians: ln L = −½ Σ (d − m)²/σ² − Σ ln σ, σ² = known² + s² unknown². Where the noise is known there is no
-//! unknown part; else s is a parameter, `noise`, with a density of 1/s.
+//! unknown part; else s is a parameter, `noise`, with a density of 1/σ: in ln s it goes with the mean over the pixels of the unknown
+//! part's share of σ², and so ends where the known part is all there is.
 
 use nalgebra::DMatrix;
 
@@ -115,7 +116,7 @@ impl<S: Source> Posterior<'_, S> {
         let (mut chi2, mut logs, mut spread) = (0.0, 0.0, 0.0);
         let mut pulls = Vec::with_capacity(self.data.len());
         // Fisher's information on ln s, and the gradient in it.
-        let (mut information, mut rise) = (0.0, 0.0);
+        let (mut information, mut rise, mut bend) = (0.0, 0.0, 0.0);
         for (pixel, (datum, value)) in self.data.iter().zip(&prediction.values).enumerate() {
             let (variance, known) = (variances[pixel], self.noise.known[pixel]);
             let residual = datum - value;
@@ -127,10 +128,16 @@ impl<S: Source> Posterior<'_, S> {
             rise += share * (square - 1.0);
             information += 2.0 * share * share;
             spread += share;
+            bend += 2.0 * share * (1.0 - share);
         }
         let likelihood = -0.5 * (chi2 + logs);
         let mut log = likelihood + place.prior;
         if let (Some(unknown), Some(q)) = (&self.noise.unknown, q.last()) {
+            if unknown.spread.is_infinite() && spread > 0.0 {
+                log += (spread / self.data.len() as f64).ln();
+                rise += bend / spread;
+                information += 2.0 * bend / self.data.len() as f64;
+            }
             log -= 0.5 * (q / unknown.spread).powi(2);
             rise -= q / unknown.spread.powi(2);
             information += unknown.spread.powi(-2);

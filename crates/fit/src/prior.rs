@@ -53,6 +53,11 @@ impl Prior {
         if !(low.is_finite() && high.is_finite()) {
             return f64::INFINITY;
         }
+        if let Self::LogUniform(..) = self {
+            let width = (high / low).ln();
+            let mean = (high - low) / width;
+            return (0.5 * (high * high - low * low) / width - mean * mean).max(0.0).sqrt();
+        }
         let (mut sum, mut first, mut second) = (0.0, 0.0, 0.0);
         for k in 0..2000 {
             let x = low + (high - low) * (f64::from(k) + 0.5) / 2000.0;
@@ -114,7 +119,9 @@ impl FromStr for Prior {
             "give uniform(FROM, TO), log-uniform(FROM, TO), normal(MEAN, DEVIATION) or isotropic(FROM, TO)";
         let inner = text.trim().strip_suffix(')').and_then(|text| text.split_once('('));
         let Some((name, numbers)) = inner else { return Err(format!("{text:?} is no prior: {FORMS}")) };
-        let numbers: Vec<f64> = numbers.split(',').filter_map(|number| number.trim().parse().ok()).collect();
+        // What is no number fails below.
+        let numbers: Vec<f64> =
+            numbers.split(',').map(|number| number.trim().parse().unwrap_or(f64::NAN)).collect();
         let [a, b] = numbers[..] else { return Err(format!("{text:?} has not two numbers: {FORMS}")) };
         let (prior, sound, rule) = match name.trim() {
             "uniform" => (Self::Uniform(a, b), a < b, "the second number has to be the larger one"),
@@ -148,12 +155,20 @@ mod tests {
                 assert!((slope - prior.log(x)[1]).abs() < 1e-6 * (1.0 + slope.abs()), "{text}");
             }
         }
-        for text in
-            ["uniform(1, 0)", "log-uniform(0, 1)", "normal(0, 0)", "flat(0, 1)", "uniform(1)", "uniform"]
-        {
+        for text in [
+            "uniform(1, 0)",
+            "log-uniform(0, 1)",
+            "normal(0, 0)",
+            "flat(0, 1)",
+            "uniform(1)",
+            "uniform",
+            "normal(0.5x, 3, 4)",
+            "normal(x, 3)",
+        ] {
             assert!(text.parse::<Prior>().is_err(), "{text}");
         }
         assert!((Prior::Uniform(0.0, 1.0).deviation([-1.0, 2.0]) - 12f64.powf(-0.5)).abs() < 1e-6);
+        assert!((Prior::LogUniform(1e-4, 1e3).deviation([1e-4, 1e3]) / 164.838_760_263 - 1.0).abs() < 1e-9);
         assert!((Prior::Normal(3.0, 0.5).deviation([-9.0, 9.0]) - 0.5).abs() < 1e-6);
         assert!((Prior::Isotropic(0.0, 180.0).quantile(0.5, [0.0, 180.0]) - 90.0).abs() < 1e-9);
     }

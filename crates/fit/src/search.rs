@@ -9,6 +9,7 @@ use crate::mode::{Mode, climb};
 use crate::model::{Freedom, Parameter, Source};
 use crate::noise;
 use crate::observed::Observed;
+use crate::prior::Prior;
 use crate::reduce::reduced;
 
 /// Pixels across the pictures with which modes are looked for.
@@ -49,7 +50,7 @@ pub fn modes(
         .collect();
     // Priors are for the picture's own pixels; to look around, bounds are enough.
     let loose: Vec<Freedom> =
-        if factor == 1 { options.freedoms.clone() } else { loosened(&freedoms, parameters) };
+        if factor == 1 { options.freedoms.clone() } else { loosened(&freedoms, sketch.parameters()) };
     let coordinates = Coordinates::new(sketch.parameters(), &loose, sizes);
     let peak = noise::peak(&small);
     let unknown = Unknown { pattern: vec![1.0; small.len()], guess: 0.02 * peak, spread: f64::INFINITY };
@@ -103,7 +104,8 @@ pub fn modes(
     for values in rough_modes {
         let q = posterior.coordinates.of(&values);
         let same = |other: &Vec<f64>| {
-            let other = posterior.coordinates.of(other);
+            let mut other = posterior.coordinates.of(other);
+            posterior.coordinates.near(&mut other, &q);
             q.iter().zip(&other).all(|(a, b)| (a - b).abs() < 0.05 * (1.0 + a.abs()))
         };
         if !distinct.iter().any(same) {
@@ -129,7 +131,10 @@ pub fn modes(
     }
     found.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
     let mut kept: Vec<Mode> = Vec::new();
-    for mode in found {
+    for mut mode in found {
+        if let Some(best) = kept.first() {
+            posterior.coordinates.near(&mut mode.place, &best.place);
+        }
         let same = |other: &Mode| other.standard(&mode.place).norm() < 1.5;
         let top = kept.first().map_or(mode.evaluation.log, |best| best.evaluation.log);
         if mode.evaluation.log > top - FORGOTTEN && !kept.iter().any(same) {
@@ -143,6 +148,11 @@ pub fn modes(
 fn loosened(freedoms: &[Freedom], parameters: &[Parameter]) -> Vec<Freedom> {
     let loose = |(freedom, parameter): (&Freedom, &Parameter)| match (freedom, parameter.usual) {
         (Freedom::Free(_), usual @ Freedom::Free(_)) if parameter.pixels != 0 => usual,
+        (Freedom::Free(_), _)
+            if parameter.pixels != 0 && parameter.bounds.iter().all(|bound| bound.is_finite()) =>
+        {
+            Freedom::Free(Prior::Uniform(parameter.bounds[0], parameter.bounds[1]))
+        }
         _ => *freedom,
     };
     freedoms.iter().zip(parameters).map(loose).collect()

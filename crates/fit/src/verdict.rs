@@ -152,8 +152,14 @@ fn neighbours(residuals: &[f64], [width, height]: [usize; 2]) -> f64 {
 
 /// Pairs of parameters that determine each other.
 fn correlations(fit: &Fit) -> Vec<(String, String, f64)> {
-    let columns: Vec<Vec<f64>> =
-        (0..fit.free.len()).map(|k| fit.draws.iter().flatten().map(|draw| draw[k]).collect()).collect();
+    // Angles are counted from the first draw.
+    let column = |k: usize| -> Vec<f64> {
+        let all: Vec<f64> = fit.draws.iter().flatten().map(|draw| draw[k]).collect();
+        let first = all.first().copied().unwrap_or(0.0);
+        let turn = |x: f64| (x - first + 540.0).rem_euclid(360.0) - 180.0;
+        if fit.free[k].0 == "position_angle" { all.into_iter().map(turn).collect() } else { all }
+    };
+    let columns: Vec<Vec<f64>> = (0..fit.free.len()).map(column).collect();
     let standard: Vec<Vec<f64>> = columns
         .iter()
         .map(|column| {

@@ -1,30 +1,25 @@
 //! `kerrscope fit`: what a picture says of the hole and its disk.
 
-use std::fmt::Write;
+mod kept;
+mod output;
+
 use std::num::NonZeroUsize;
-use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use std::time::Instant;
 
-use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::measure::Picture;
-use kerrscope::output::file::write_atomically;
-use kerrscope::spacetime::Level;
 use kerrscope_fit::Observed;
-use kerrscope_fit::evidence::Test;
-use kerrscope_fit::fit::{AIM, Fit, FitError, Image, Keeper, Models, Options, fit};
+use kerrscope_fit::fit::{AIM, FitError, Image, Keeper, Models, Options, fit};
 use kerrscope_fit::models::{Choice, Name};
-use kerrscope_fit::output::residual::Residual;
-use kerrscope_fit::output::{Record, chain, corner};
 use kerrscope_fit::request::{Request, unknown_model};
 use kerrscope_fit::silhouette::{Silhouette, Silhouettes};
-use kerrscope_fit::summary::Estimate;
 use kerrscope_fit::traced::Projection;
-use serde::Serialize;
 
+use self::kept::kept;
+use self::output::{Output, files, table};
 use crate::report::Failure;
-use crate::theory::{self, Question};
+use crate::theory::Question;
 use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 
 /// Find what a picture says of a hole and its disk: spin, inclination and all else at once, with errors.
@@ -131,27 +126,6 @@ enum Shape {
     Angular,
     /// Tangents, as in a camera
     Pinhole,
-}
-
-#[derive(Serialize)]
-struct Output<'a> {
-    model: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    spacetime: Option<&'a str>,
-    parameters: &'a [Estimate],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    tests: Option<&'a [Test]>,
-    converged: bool,
-    good: bool,
-    warnings: &'a [String],
-    chi2: f64,
-    degrees: usize,
-    explained: f64,
-    evidence: f64,
-    evaluations: usize,
-    wall_s: f64,
-    seed: u64,
-    version: &'static str,
 }
 
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
@@ -319,149 +293,4 @@ fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
         faults.push("a ring on the sky has no distance: leave --distance away".to_owned());
     }
     if faults.is_empty() { Ok((choice, request)) } else { Err(Failure::Input(faults.join("\nerror: "))) }
-}
-
-/// Rounds of chains in a checkpoint.
-struct Kept {
-    checkpoint: Checkpoint,
-    before: Mutex<Vec<(u64, Vec<u8>)>>,
-}
-
-impl Keeper for Kept {
-    fn kept(&self, round: u64) -> Option<Vec<u8>> {
-        let before = self.before.lock().ok()?;
-        before.iter().find(|(number, _)| *number == round).map(|(_, contents)| contents.clone())
-    }
-
-    fn keep(&self, round: u64, contents: &[u8]) -> Result<(), String> {
-        self.checkpoint
-            .keep(round, contents)
-            .and_then(|()| self.checkpoint.flush())
-            .map_err(|e| e.to_string())
-    }
-}
-
-/// The checkpoint beside the files to write.
-fn kept(
-    arguments: &Arguments,
-    name: &Path,
-    image: &Image,
-    (model, request, question): (Name, &Request, Option<&Question>),
-) -> Result<Kept, Failure> {
-    let mut path = name.as_os_str().to_owned();
-    path.push(".checkpoint");
-    let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
-    let settings = format!(
-        "{:?} {:?} {:?} {:?} {:?} {:?} {} {:?}",
-        image.size,
-        request,
-        model,
-        arguments.projection,
-        arguments.orders,
-        arguments.noise,
-        arguments.seed,
-        question.map(|question| &question.tested.theory)
-    );
-    let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
-    let path = Path::new(&path);
-    let opened = if arguments.resume {
-        Checkpoint::resume(path, &identity)
-    } else {
-        Checkpoint::start(path, &identity)
-    };
-    let checkpoint = opened.map_err(|error| match error {
-        CheckpointError::File(e) => Failure::Failed(e.to_string()),
-        wrong => Failure::Input(wrong.to_string()),
-    })?;
-    let mut before = Vec::new();
-    checkpoint
-        .parts(|number, contents| before.push((number, contents.to_vec())))
-        .map_err(|e| Failure::Failed(e.to_string()))?;
-    Ok(Kept { checkpoint, before: Mutex::new(before) })
-}
-
-/// Writes the files of a fit.
-fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Result<(), Failure> {
-    let file = |ending: &str| {
-        let mut path = name.as_os_str().to_owned();
-        path.push(ending);
-        PathBuf::from(path)
-    };
-    let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
-    let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
-    whole(&file(".json"), &json)?;
-    let words: Vec<(String, String)> = std::iter::once(("model".to_owned(), output.model.to_owned()))
-        .chain(output.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string())))
-        .collect();
-    let record = Record { seed: output.seed, model: &words };
-    chain::write(&file(".chain.h5"), found, &record).map_err(|e| failed(&e))?;
-    let title = format!("{} fitted to {}", output.model, name.display());
-    whole(&file(".corner.svg"), &corner::corner(found, &title))?;
-    let residual = Residual::of(image, found);
-    residual.write_png(&file(".residual.png"), &record).map_err(|e| failed(&e))?;
-    residual.write_fits(&file(".residual.fits"), &record).map_err(|e| failed(&e))
-}
-
-/// Writes a text, whole or not at all.
-fn whole(path: &Path, text: &str) -> Result<(), Failure> {
-    write_atomically(path, |file| file.write_all(text.as_bytes())).map_err(|e| Failure::Failed(e.to_string()))
-}
-
-/// The table, for reading.
-fn table(output: &Output<'_>) -> String {
-    let mut text = String::new();
-    let _ = writeln!(
-        text,
-        "{:<16} {:>13} {:>13} {:>11} {:>13} {:>13}  unit",
-        "parameter", "mode", "mean", "sd", "2.5 %", "97.5 %"
-    );
-    for e in output.parameters.iter().filter(|e| e.free) {
-        let number = |value: f64| significant(value, e.sd);
-        let _ = writeln!(
-            text,
-            "{:<16} {:>13} {:>13} {:>11.2e} {:>13} {:>13}  {}",
-            e.name,
-            number(e.mode),
-            number(e.mean),
-            e.sd,
-            number(e.q025),
-            number(e.q975),
-            e.unit
-        );
-    }
-    let fixed: Vec<String> = output
-        .parameters
-        .iter()
-        .filter(|e| !e.free)
-        .map(|e| format!("{} = {} {}", e.name, e.mode, e.unit).trim_end().to_owned())
-        .collect();
-    let _ = writeln!(text, "\nfixed: {}", fixed.join(", "));
-    let _ = writeln!(
-        text,
-        "model {}: {:.2} % of the variance explained, χ² {:.1} for {} degrees of freedom; {} evaluations in {:.0} s",
-        output.model,
-        100.0 * output.explained,
-        output.chi2,
-        output.degrees,
-        output.evaluations,
-        output.wall_s
-    );
-    text.push_str(&output.tests.map(theory::lines).unwrap_or_default());
-    for warning in output.warnings {
-        let _ = writeln!(text, "warning: {warning}");
-    }
-    text.trim_end().to_owned()
-}
-
-/// A number with as many digits as its error leaves it, and two more.
-fn significant(value: f64, error: f64) -> String {
-    if !(error > 0.0) {
-        return format!("{value}");
-    }
-    let digits = (2.0 - error.log10()).ceil();
-    if (0.0..=9.0).contains(&digits) && value.abs() < 1e7 {
-        format!("{value:.*}", digits as usize)
-    } else {
-        format!("{value:.5e}")
-    }
 }

@@ -1,0 +1,123 @@
+//! What a fit prints and writes.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use kerrscope::output::file::write_atomically;
+use kerrscope_fit::evidence::Test;
+use kerrscope_fit::fit::{Fit, Image};
+use kerrscope_fit::output::residual::Residual;
+use kerrscope_fit::output::{Record, chain, corner};
+use kerrscope_fit::summary::Estimate;
+use serde::Serialize;
+
+use crate::report::Failure;
+use crate::theory;
+
+/// A fit as JSON.
+#[derive(Serialize)]
+pub struct Output<'a> {
+    pub model: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spacetime: Option<&'a str>,
+    pub parameters: &'a [Estimate],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tests: Option<&'a [Test]>,
+    pub converged: bool,
+    pub good: bool,
+    pub warnings: &'a [String],
+    pub chi2: f64,
+    pub degrees: usize,
+    pub explained: f64,
+    pub evidence: f64,
+    pub evaluations: usize,
+    pub wall_s: f64,
+    pub seed: u64,
+    pub version: &'static str,
+}
+
+/// Writes the files of a fit.
+pub fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Result<(), Failure> {
+    let file = |ending: &str| {
+        let mut path = name.as_os_str().to_owned();
+        path.push(ending);
+        PathBuf::from(path)
+    };
+    let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
+    let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
+    whole(&file(".json"), &json)?;
+    let words: Vec<(String, String)> = std::iter::once(("model".to_owned(), output.model.to_owned()))
+        .chain(output.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string())))
+        .collect();
+    let record = Record { seed: output.seed, model: &words };
+    chain::write(&file(".chain.h5"), found, &record).map_err(|e| failed(&e))?;
+    let title = format!("{} fitted to {}", output.model, name.display());
+    whole(&file(".corner.svg"), &corner::corner(found, &title))?;
+    let residual = Residual::of(image, found);
+    residual.write_png(&file(".residual.png"), &record).map_err(|e| failed(&e))?;
+    residual.write_fits(&file(".residual.fits"), &record).map_err(|e| failed(&e))
+}
+
+/// Writes a text, whole or not at all.
+fn whole(path: &Path, text: &str) -> Result<(), Failure> {
+    write_atomically(path, |file| file.write_all(text.as_bytes())).map_err(|e| Failure::Failed(e.to_string()))
+}
+
+/// The table, for reading.
+pub fn table(output: &Output<'_>) -> String {
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{:<16} {:>13} {:>13} {:>11} {:>13} {:>13}  unit",
+        "parameter", "mode", "mean", "sd", "2.5 %", "97.5 %"
+    );
+    for e in output.parameters.iter().filter(|e| e.free) {
+        let number = |value: f64| significant(value, e.sd);
+        let _ = writeln!(
+            text,
+            "{:<16} {:>13} {:>13} {:>11.2e} {:>13} {:>13}  {}",
+            e.name,
+            number(e.mode),
+            number(e.mean),
+            e.sd,
+            number(e.q025),
+            number(e.q975),
+            e.unit
+        );
+    }
+    let fixed: Vec<String> = output
+        .parameters
+        .iter()
+        .filter(|e| !e.free)
+        .map(|e| format!("{} = {} {}", e.name, e.mode, e.unit).trim_end().to_owned())
+        .collect();
+    let _ = writeln!(text, "\nfixed: {}", fixed.join(", "));
+    let _ = writeln!(
+        text,
+        "model {}: {:.2} % of the variance explained, χ² {:.1} for {} degrees of freedom; {} evaluations in {:.0} s",
+        output.model,
+        100.0 * output.explained,
+        output.chi2,
+        output.degrees,
+        output.evaluations,
+        output.wall_s
+    );
+    text.push_str(&output.tests.map(theory::lines).unwrap_or_default());
+    for warning in output.warnings {
+        let _ = writeln!(text, "warning: {warning}");
+    }
+    text.trim_end().to_owned()
+}
+
+/// A number with as many digits as its error leaves it, and two more.
+fn significant(value: f64, error: f64) -> String {
+    if !(error > 0.0) {
+        return format!("{value}");
+    }
+    let digits = (2.0 - error.log10()).ceil();
+    if (0.0..=9.0).contains(&digits) && value.abs() < 1e7 {
+        format!("{value:.*}", digits as usize)
+    } else {
+        format!("{value:.5e}")
+    }
+}
