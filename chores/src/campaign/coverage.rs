@@ -110,8 +110,9 @@ pub fn run(root: &Path) -> Result<(bool, String), String> {
     let fault = std::thread::scope(|scope| {
         // Each fit on a core of its own: its draws are the same for any number of threads.
         let workers: Vec<_> = (0..rayon::current_num_threads()).map(|_| scope.spawn(work)).collect();
-        let ends = workers.into_iter().map(|w| w.join().unwrap_or_else(|_| Err("a run panicked".to_owned())));
-        ends.filter_map(Result::err).next()
+        let mut ends =
+            workers.into_iter().map(|w| w.join().unwrap_or_else(|_| Err("a run panicked".to_owned())));
+        ends.find_map(Result::err)
     });
     match fault {
         Some(fault) => Err(fault),
