@@ -12,18 +12,18 @@
 //!
 //! From brightness v to shares c ([`Silhouette::of`]):
 //!
-//! - Lit is what is above the sky by 0.1 % of the light, or six standard deviations of the noise; specks are left out ([`lit`]).
+//! - Lit is what is above the sky by 0.1 % of the light, or six standard deviations of the noise; specks are left out (`lit.rs`).
 //! - Pixels next to dark ones are at an edge. Their light is compared with that on the lit side, one to three pixels farther in,
-//!   so that the dim side of a disk is lit as the bright one is ([`edge`]).
+//!   so that the dim side of a disk is lit as the bright one is (`edge.rs`).
 //! - y = v/v_lit would be c in linear light. A tone curve bends that: c = y/(K + (1 − K) y), K above 1 for a curve that flattens out, with
 //!   the slope K next to black. A straight edge has all places on the grid equally often, which tells K of each part of the range of
-//!   brightness ([`bend`]); what is left of it is a parameter of the fit, `tone`.
+//!   brightness (`bend.rs`); what is left of it is a parameter of the fit, `tone`.
 //! - Where light begins gradually, as at the inner edge of a disk with the flux of Page & Thorne, or in arcs thinner than two pixels, there is
 //!   no edge whose place can be told: such pixels count nothing.
 //!
 //! The size of the errors is found from the residuals of the pixels at edges, and of these alone: the others would make it small. Residuals
 //! of neighbours go together where a tone curve or a wrong model moves a whole stretch of an edge: then there are fewer independent
-//! ones, and errors are larger ([`misfit`]).
+//! ones, and errors are larger (`misfit.rs`).
 
 mod bend;
 mod edge;
