@@ -207,6 +207,7 @@ fn near(fit: &Fit, name: &str, truth: f64) {
 
 /// A deviation of Johannsen's kind, in a picture of the renderer with noise of 2 %.
 #[test]
+#[ignore = "takes minutes: cargo test --release -p kerrscope-fit --test theory -- --ignored"]
 fn a_deviation_is_recovered() {
     let (fit, test) = found(&noisy(rendered(0.5, 2.0, 60.0, 24, 144), 24, 0.02, 3));
     assert!(fit.good && fit.estimates.iter().all(|e| e.converged((1.1, 20.0))), "{:?}", fit.warnings);
@@ -218,6 +219,7 @@ fn a_deviation_is_recovered() {
 
 /// None, in a picture of a Kerr hole drawn by the closed form.
 #[test]
+#[ignore = "takes minutes: cargo test --release -p kerrscope-fit --test theory -- --ignored"]
 fn no_deviation_is_found_around_a_kerr_hole() {
     let fine = Fineness { lines: 640, step: 0.015, bend: 0.03, ..Fineness::default() };
     let disk = Disk::new(Kind::PageThorne, true, Projection::Angular, fine);
