@@ -188,6 +188,9 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         modes = modes.iter().filter_map(again).collect();
         evaluations += modes.iter().map(|mode| mode.evaluations).sum::<usize>();
         modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+        if modes.is_empty() {
+            return Err(FitError::NoStart);
+        }
     }
     let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
     let mut chains = field.begin().ok_or(FitError::NoStart)?;

@@ -7,6 +7,7 @@ use kerrscope_fit::fit::{AIM, Image, Models, Options, fit};
 use kerrscope_fit::likelihood::{Ask, Noise, Posterior};
 use kerrscope_fit::model::{Freedom, Source};
 use kerrscope_fit::models::Choice;
+use kerrscope_fit::noise::peak;
 use kerrscope_fit::traced::{Disk, Fineness, Kind, Projection};
 use kerrscope_fit::{Coordinates, Observed, Prior};
 use serde::Serialize;
@@ -86,10 +87,6 @@ fn picture(inclination: f64) -> Result<Vec<f64>, Failure> {
         .predict(&truth(inclination), false)
         .map(|prediction| prediction.values)
         .map_err(|e| Failure::Failed(e.to_string()))
-}
-
-fn peak(values: &[f64]) -> f64 {
-    values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
 }
 
 /// Measures both; the likelihoods on one thread.

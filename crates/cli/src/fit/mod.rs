@@ -40,7 +40,7 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     With --silhouette only what is lit counts, not how brightly: for screenshots and other pictures that a tone curve was applied to.\n\
     `inner` is then 0 at the horizon and 1 at the last stable orbit, `outer` is free if the disk ends within the picture, and `tone` is\n\
     what the curve does to pixels at edges. Edges where light begins gradually are left out. Pictures of one image order, as the\n\
-    thesis's, need --orders 1 (exactly edge-on 2: both faces are seen there).\n\n\
+    thesis's, need --orders 1. Disks seen from within half a degree of their own plane have no picture.\n\n\
     With --spacetime NAME|FILE the disk is in a metric as text, one that is known by its name (kerr-newman, johannsen …) or one's\n\
     own, whose numbers are parameters too: spin is looked for, the others keep the values of the text unless --prior frees them.\n\
     For each that was free the report says what speaks for its value in Kerr's spacetime, 0 or that of --null NAME=VALUE: the\n\
