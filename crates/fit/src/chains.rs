@@ -74,6 +74,13 @@ pub struct Chains {
     pub rounds: u64,
 }
 
+impl Chains {
+    /// How the chains move.
+    pub fn way(&self) -> &'static str {
+        if self.trajectories { "trajectories" } else { "leaps" }
+    }
+}
+
 /// What chains are run over.
 pub struct Field<'a, S> {
     /// The posterior.

@@ -177,6 +177,10 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         Posterior { model: &model, data: &image.values, noise: &assumed, coordinates: &coordinates };
     (options.progress)("looking for modes");
     let (mut modes, mut evaluations) = modes(image, models, options, &posterior, &sizes)?;
+    (options.progress)(&match modes.len() {
+        1 => "one mode".to_owned(),
+        several => format!("{several} modes compete"),
+    });
     let values = &modes[0].evaluation.values;
     let best = model.predict(&values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
     let revised = models.revised(image, &best.values);
@@ -207,7 +211,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
             all.diverged += draws.diverged;
         }
         let count = all[0].places.len();
-        (options.progress)(&format!("{count} draws of {CHAINS} chains"));
+        (options.progress)(&format!("{count} draws of {CHAINS} chains, by {}", chains.way()));
         if count < 2 * ROUND {
             continue;
         }
