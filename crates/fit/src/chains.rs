@@ -8,7 +8,6 @@
 //!
 //! A round of draws is a function of the round before and of the seed, whatever the number of threads.
 
-use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_distr::{ChiSquared, Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
@@ -27,13 +26,16 @@ pub const CHAINS: usize = 4;
 /// Degrees of freedom of proposals between modes.
 const FREEDOM: f64 = 8.0;
 
-/// Draws of the first rounds, which are not kept: two of leaps, after the first of which the draws' own covariance shapes them; and
-/// where these fail, three of trajectories.
-const TRIED: [usize; 2] = [40, 30];
+/// Draws of the first rounds, which are not kept: three of leaps, between which the draws' own covariance shapes them; and where
+/// these fail, three of trajectories.
+const TRIED: [usize; 3] = [40, 40, 30];
 const WARM: [usize; 3] = [20, 30, 20];
 
-/// The share of leaps of the second round that have to succeed.
-const LEAPING: f64 = 0.2;
+/// The share of leaps of the last of these rounds that have to succeed: where fewer do, chains stay long in the tails.
+const LEAPING: f64 = 0.3;
+
+/// Below this share of them, the draws' covariance is none to go on with.
+const STUCK: f64 = 0.1;
 
 /// Leaps for a draw.
 const LEAPS: usize = 2;
@@ -147,12 +149,8 @@ impl<S: Source> Field<'_, S> {
 
     fn state(&self, metric: &Metric, q: &[f64]) -> Option<State> {
         let found = self.posterior.at(q, Ask::Gradient)?;
-        let gradient = metric.matrix.tr_mul(&DVector::from_column_slice(&found.gradient));
-        Some(State {
-            z: metric.inside(q).as_slice().to_vec(),
-            log: found.log,
-            gradient: gradient.as_slice().to_vec(),
-        })
+        let gradient = metric.pull(q, &found.gradient);
+        Some(State { z: metric.inside(q).as_slice().to_vec(), log: found.log, gradient })
     }
 
     /// The next round of all chains, and its draws; those of warming up, which do not count, are empty.
@@ -188,19 +186,21 @@ impl<S: Source> Field<'_, S> {
         };
         if round + 1 == TRIED.len() {
             let [tried, accepted] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
-            chains.trajectories = (accepted as f64) < LEAPING * tried as f64;
-            if chains.trajectories
+            let share = accepted as f64 / tried as f64;
+            chains.trajectories = share < LEAPING;
+            // Draws that hardly moved have no shape.
+            if share < STUCK
                 && let Some(mode) = self.modes.first()
             {
                 Self::change(&mut chains, Metric::around(mode));
             }
-        } else if round == 0 || (trajectories && round == TRIED.len() + 1) {
+        } else if round + 1 < TRIED.len() || (trajectories && round == TRIED.len() + 1) {
             let next = metric.shaped_by(&places());
             Self::change(&mut chains, next);
         }
         if warm.is_some() {
             for d in &mut draws {
-                *d = Draws { evaluations: d.evaluations, ..Draws::default() };
+                *d = Draws { evaluations: d.evaluations, leaps: d.leaps, ..Draws::default() };
             }
         }
         chains.rounds += 1;
@@ -255,9 +255,9 @@ impl<S: Source> Field<'_, S> {
     ) -> Draws {
         let mut draws = Draws::default();
         let mut target = |y: &[f64]| {
-            let found = self.posterior.at(&metric.outside(y), Ask::Gradient)?;
-            let gradient = metric.matrix.tr_mul(&DVector::from_column_slice(&found.gradient));
-            Some((found.log, gradient.as_slice().to_vec()))
+            let q = metric.outside(y);
+            let found = self.posterior.at(&q, Ask::Gradient)?;
+            Some((found.log, metric.pull(&q, &found.gradient)))
         };
         for _ in 0..warm.unwrap_or(ROUND) {
             if cancelled() {

@@ -6,6 +6,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use serde::{Deserialize, Serialize};
+
 use crate::model::{Freedom, Parameter};
 use crate::prior::Prior;
 
@@ -34,6 +36,17 @@ struct Sought {
     kind: Kind,
     /// What is assumed of the second of an axis.
     other: Prior,
+    /// Whether it is the observer's distance.
+    distance: bool,
+}
+
+/// 1/r as a function of the coordinate of r.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reciprocal {
+    /// Which coordinate.
+    pub index: usize,
+    low: f64,
+    high: f64,
 }
 
 /// The coordinates of a fit.
@@ -60,6 +73,21 @@ pub struct Place {
     pub gradient: Vec<f64>,
     /// About its negative curvature along each coordinate, at least a little above 0.
     pub curvature: Vec<f64>,
+}
+
+impl Reciprocal {
+    /// 1/r and its derivative.
+    pub fn at(&self, q: f64) -> [f64; 2] {
+        let [value, slope] = between_logs(q, self.low, self.high);
+        [value.recip(), -slope * value.powi(-2)]
+    }
+}
+
+/// A value between positive bounds, and its derivative.
+fn between_logs(q: f64, low: f64, high: f64) -> [f64; 2] {
+    let (share, width) = ((1.0 + (-q).exp()).recip(), (high / low).ln());
+    let value = low * (width * share).exp();
+    [value, value * width * share * (1.0 - share)]
 }
 
 impl Coordinates {
@@ -100,7 +128,8 @@ impl Coordinates {
                 (Kind::Axis, Some(Freedom::Free(prior))) => *prior,
                 _ => Prior::Uniform(0.0, 360.0),
             };
-            sought.push(Sought { parameter: k, prior, kind, other });
+            let distance = parameter.name == "distance";
+            sought.push(Sought { parameter: k, prior, kind, other, distance });
         }
         Self { start, sought }
     }
@@ -116,6 +145,18 @@ impl Coordinates {
             if s.kind == Kind::Axis { vec![s.parameter, s.parameter + 1] } else { vec![s.parameter] }
         };
         self.sought.iter().flat_map(both).collect()
+    }
+
+    /// The observer's distance, if it is looked for between two others.
+    pub fn distance(&self) -> Option<Reciprocal> {
+        let mut index = 0;
+        for sought in &self.sought {
+            if let (true, Kind::BetweenLogs(low, high)) = (sought.distance, sought.kind) {
+                return Some(Reciprocal { index, low, high });
+            }
+            index += if sought.kind == Kind::Axis { 2 } else { 1 };
+        }
+        None
     }
 
     /// Coordinates of parameters, those at or beyond their bounds a little within.
@@ -179,12 +220,12 @@ impl Coordinates {
                     place.one(k, value, slope, sought.prior, jacobian);
                 }
                 Kind::BetweenLogs(low, high) => {
-                    let (share, width) = ((1.0 + (-take()).exp()).recip(), (high / low).ln());
-                    let value = low * (width * share).exp();
+                    let q = take();
+                    let [value, slope] = between_logs(q, low, high);
+                    let share = (1.0 + (-q).exp()).recip();
                     let both = (share * (1.0 - share)).max(1e-300);
-                    let rate = width * both;
-                    let jacobian = [(value * both).ln(), rate + 1.0 - 2.0 * share, 2.0 * both];
-                    place.one(k, value, value * rate, sought.prior, jacobian);
+                    let jacobian = [(value * both).ln(), slope / value + 1.0 - 2.0 * share, 2.0 * both];
+                    place.one(k, value, slope, sought.prior, jacobian);
                 }
                 Kind::Above(low) => {
                     let q = take();

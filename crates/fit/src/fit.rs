@@ -204,6 +204,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let mut kept_rounds = 0;
     loop {
         let draws = round(&field, &mut chains, options)?;
+        let [tried, made] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
         evaluations += draws.iter().map(|d| d.evaluations).sum::<usize>();
         for (all, draws) in all.iter_mut().zip(draws) {
             all.places.extend(draws.places);
@@ -211,7 +212,11 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
             all.diverged += draws.diverged;
         }
         let count = all[0].places.len();
-        (options.progress)(&format!("{count} draws of {CHAINS} chains, by {}", chains.way()));
+        let share = 100 * made / tried.max(1);
+        (options.progress)(&format!(
+            "{count} draws of {CHAINS} chains, by {}; {share} % of leaps succeed",
+            chains.way()
+        ));
         if count < 2 * ROUND {
             continue;
         }

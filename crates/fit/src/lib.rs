@@ -20,6 +20,7 @@ mod reduce;
 pub mod request;
 mod ring;
 mod search;
+mod shear;
 pub mod silhouette;
 pub mod summary;
 pub mod traced;

@@ -4,36 +4,31 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use crate::mode::Mode;
+use crate::shear::Shear;
 
-/// Coordinates in which chains are run: q = origin + matrix · y.
+/// Coordinates in which chains are run: q = origin + matrix · y, sheared.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Metric {
     origin: Vec<f64>,
     /// Its columns are the steps of y.
-    pub matrix: DMatrix<f64>,
+    matrix: DMatrix<f64>,
     inverse: DMatrix<f64>,
+    shear: Option<Shear>,
 }
 
 impl Metric {
-    fn of(origin: Vec<f64>, matrix: DMatrix<f64>) -> Self {
+    fn of(origin: Vec<f64>, matrix: DMatrix<f64>, shear: Option<Shear>) -> Self {
         let n = matrix.nrows();
         let inverse = matrix.clone().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
-        Self { origin, matrix, inverse }
+        Self { origin, matrix, inverse, shear }
     }
 
     /// That of the Gaussian around a mode.
     pub fn around(mode: &Mode) -> Self {
+        let lower = mode.factor.l();
         let n = mode.place.len();
-        let mut matrix = DMatrix::zeros(n, n);
-        for k in 0..n {
-            let mut unit = vec![0.0; n];
-            unit[k] = 1.0;
-            let moved = mode.at(&unit);
-            for row in 0..n {
-                matrix[(row, k)] = moved[row] - mode.place[row];
-            }
-        }
-        Self::of(mode.place.clone(), matrix)
+        let matrix = lower.transpose().try_inverse().unwrap_or_else(|| DMatrix::identity(n, n));
+        Self::of(mode.place.clone(), matrix, mode.shear.clone())
     }
 
     /// That of draws, with the present one counting as some of them.
@@ -48,19 +43,40 @@ impl Metric {
             covariance += &offset * offset.transpose() / (count + 10.0);
         }
         let lower = crate::mode::factor(covariance).l();
-        let origin = self.outside(mean.as_slice());
-        Self::of(origin, &self.matrix * lower)
+        let origin = self.straight(mean.as_slice());
+        Self::of(origin, &self.matrix * lower, self.shear.clone())
     }
 
-    /// Coordinates at y.
-    pub fn outside(&self, y: &[f64]) -> Vec<f64> {
+    fn straight(&self, y: &[f64]) -> Vec<f64> {
         let moved = &self.matrix * DVector::from_column_slice(y);
         self.origin.iter().zip(moved.iter()).map(|(a, b)| a + b).collect()
     }
 
+    /// Coordinates at y.
+    pub fn outside(&self, y: &[f64]) -> Vec<f64> {
+        let mut q = self.straight(y);
+        if let Some(shear) = &self.shear {
+            shear.bend(&mut q);
+        }
+        q
+    }
+
     /// y at coordinates.
     pub fn inside(&self, q: &[f64]) -> DVector<f64> {
+        let mut q = q.to_vec();
+        if let Some(shear) = &self.shear {
+            shear.straighten(&mut q);
+        }
         let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.origin).map(|(a, b)| a - b));
         &self.inverse * offset
+    }
+
+    /// The gradient in y, from that in the coordinates at q.
+    pub fn pull(&self, q: &[f64], gradient: &[f64]) -> Vec<f64> {
+        let mut gradient = gradient.to_vec();
+        if let Some(shear) = &self.shear {
+            shear.pull(q, &mut gradient);
+        }
+        self.matrix.tr_mul(&DVector::from_vec(gradient)).as_slice().to_vec()
     }
 }

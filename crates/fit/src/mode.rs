@@ -7,6 +7,7 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::likelihood::{Ask, Evaluation, Posterior};
 use crate::model::Source;
+use crate::shear::Shear;
 
 /// A maximum of the posterior, and its surroundings as a Gaussian.
 #[derive(Clone, Debug)]
@@ -17,6 +18,8 @@ pub struct Mode {
     pub evaluation: Evaluation,
     /// L of LLᵀ = minus the second derivatives, nearly.
     pub factor: Cholesky<f64, Dyn>,
+    /// What makes the surroundings more of a Gaussian.
+    pub shear: Option<Shear>,
     /// Whether steps had become small.
     pub converged: bool,
     /// How often the model was evaluated.
@@ -31,25 +34,26 @@ impl Mode {
         self.evaluation.log + 0.5 * n * std::f64::consts::TAU.ln() - half
     }
 
-    /// Coordinates of a place given in standard deviations of that Gaussian: q + L⁻ᵀ z.
+    /// Coordinates of a place given in standard deviations of that Gaussian: q + L⁻ᵀ z, sheared.
     pub fn at(&self, z: &[f64]) -> Vec<f64> {
         let mut step = DVector::from_column_slice(z);
         self.factor.l_dirty().tr_solve_lower_triangular_mut(&mut step);
-        self.place.iter().zip(step.iter()).map(|(q, s)| q + s).collect()
+        let mut q: Vec<f64> = self.place.iter().zip(step.iter()).map(|(q, s)| q + s).collect();
+        if let Some(shear) = &self.shear {
+            shear.bend(&mut q);
+        }
+        q
     }
 
-    /// The place in standard deviations: Lᵀ (q − q₀).
+    /// The place in standard deviations: Lᵀ (q − q₀), q straightened.
     pub fn standard(&self, q: &[f64]) -> DVector<f64> {
+        let mut q = q.to_vec();
+        if let Some(shear) = &self.shear {
+            shear.straighten(&mut q);
+        }
         let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.place).map(|(a, b)| a - b));
         let lower = self.factor.l_dirty().lower_triangle();
         lower.tr_mul(&offset)
-    }
-
-    /// From a gradient in the coordinates to one in standard deviations: L⁻¹ g.
-    pub fn turn(&self, gradient: &[f64]) -> Vec<f64> {
-        let mut turned = DVector::from_column_slice(gradient);
-        self.factor.l_dirty().solve_lower_triangular_mut(&mut turned);
-        turned.iter().copied().collect()
     }
 }
 
@@ -99,7 +103,10 @@ pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize
         // A coordinate of a bounded parameter does not leap over all of its range.
         let largest = step.iter().fold(0.0_f64, |most, s| most.max(s.abs()));
         let shrink = (3.0 / largest).min(1.0);
-        let next: Vec<f64> = place.iter().zip(step.iter()).map(|(q, s)| q + shrink * s).collect();
+        let mut next: Vec<f64> = place.iter().zip(step.iter()).map(|(q, s)| q + shrink * s).collect();
+        if let Some(shear) = Shear::about(posterior.coordinates, &place, &here.curvature) {
+            shear.bend(&mut next);
+        }
         evaluations += 1;
         match posterior.at(&next, Ask::Curvature) {
             Some(there) if there.log > here.log => {
@@ -122,5 +129,6 @@ pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize
         }
     }
     let factor = factor(here.curvature.clone());
-    Some(Mode { place, evaluation: here, factor, converged, evaluations })
+    let shear = Shear::about(posterior.coordinates, &place, &here.curvature);
+    Some(Mode { place, evaluation: here, factor, shear, converged, evaluations })
 }

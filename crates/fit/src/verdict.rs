@@ -86,7 +86,9 @@ pub fn judge(
         let wide = prior.deviation(parameter.bounds);
         match parameter.name {
             "position_angle" if estimate.sd > 60.0 => warnings.push(
-                "the position angle cannot be told: the picture is as good as the same all around, as of a disk seen face-on".to_owned(),
+                "the position angle cannot be told: the picture is as good as the same all around, as of a disk seen face-on; nor can it be \
+                 told whether that is seen from above or below, at 180° less the inclination"
+                    .to_owned(),
             ),
             "spin" if estimate.q025 < 0.0 && estimate.q975 > 0.0 => warnings.push(format!(
                 "the sign of the spin cannot be told: 95 % of the posterior lie between {:.3} and {:.3}",

@@ -2,10 +2,9 @@
 
 use std::f64::consts::PI;
 
-use super::order::{HOLE, NODES, Nodes, VALUES, View, node, scale};
+use nalgebra::DMatrix;
 
-/// Numbers of a term of the series of a direction: those of a node, and what the first changes by with χ.
-const TERM: usize = VALUES + 1;
+use super::order::{HOLE, NODES, Nodes, View, node, scale};
 
 /// From values at so many equal steps around to as many lines, by Fourier's series.
 #[derive(Clone, Debug)]
@@ -14,39 +13,40 @@ pub struct Around {
     pub lines: usize,
     /// How many directions.
     pub directions: usize,
-    /// For each line the share of each direction's value, and of its slope in χ.
-    shares: Vec<f64>,
-    slopes: Vec<f64>,
+    /// For each line, a column, the share of each direction's value, and of its slope in χ.
+    shares: DMatrix<f64>,
+    slopes: DMatrix<f64>,
 }
 
 impl Around {
     /// Between two numbers of points around.
     pub fn new(directions: usize, lines: usize) -> Self {
         let n = directions as f64;
-        let (mut shares, mut slopes) = (Vec::new(), Vec::new());
-        for line in 0..lines {
-            for direction in 0..directions {
-                let angle = 2.0 * PI * (line as f64 / lines as f64 - direction as f64 / n);
-                shares.push(super::order::periodic(directions, angle));
-                let half = 0.5 * angle;
-                let (sin, cos) = half.sin_cos();
-                slopes.push(if sin.abs() < 1e-12 {
-                    0.0
-                } else {
-                    ((n * half).cos() * cos / sin - (n * half).sin() / (n * sin * sin)) * 0.5
-                });
+        let angle =
+            |direction: usize, line: usize| 2.0 * PI * (line as f64 / lines as f64 - direction as f64 / n);
+        let share = |direction, line| super::order::periodic(directions, angle(direction, line));
+        let slope = |direction, line| {
+            let half = 0.5 * angle(direction, line);
+            let (sin, cos) = half.sin_cos();
+            if sin.abs() < 1e-12 {
+                0.0
+            } else {
+                ((n * half).cos() * cos / sin - (n * half).sin() / (n * sin * sin)) * 0.5
             }
+        };
+        Self {
+            lines,
+            directions,
+            shares: DMatrix::from_fn(directions, lines, share),
+            slopes: DMatrix::from_fn(directions, lines, slope),
         }
-        Self { lines, directions, shares, slopes }
     }
 
     /// Values and slopes of a function around.
     pub fn spread(&self, values: &[f64]) -> Vec<[f64; 2]> {
-        let row = |table: &[f64], line: usize| {
-            let row = &table[line * self.directions..][..self.directions];
-            row.iter().zip(values).map(|(share, value)| share * value).sum::<f64>()
-        };
-        (0..self.lines).map(|line| [row(&self.shares, line), row(&self.slopes, line)]).collect()
+        let values = DMatrix::from_row_slice(1, self.directions, values);
+        let [shares, slopes] = [&values * &self.shares, &values * &self.slopes];
+        shares.iter().zip(slopes.iter()).map(|(value, slope)| [*value, *slope]).collect()
     }
 }
 
@@ -88,10 +88,10 @@ pub struct Point {
 #[derive(Clone, Debug)]
 pub struct Lines {
     order: usize,
-    /// Terms of all lines, those of a line side by side.
-    terms: Vec<[f64; TERM]>,
-    /// How many of a line's terms matter.
-    used: usize,
+    /// Terms of the first of a node's values, and what they change by with χ: a column for each line.
+    terms: [DMatrix<f64>; 2],
+    /// Terms of ∂ln ρ/∂p, those of all p side by side; none if they are not asked for.
+    drifts: Option<DMatrix<f64>>,
     /// Of each line: cos ψ, sin ψ, dψ/dχ, the weight of y and its slope.
     pub rays: Vec<[f64; 5]>,
     /// x at the inner edge.
@@ -104,38 +104,33 @@ pub struct Lines {
 const NEGLIGIBLE: f64 = 1e-7;
 
 impl Lines {
-    /// Spreads nodes over lines.
-    pub fn new(view: &View, order: usize, nodes: &Nodes, around: &Around, inner: f64, outer: &[f64]) -> Self {
+    /// Spreads nodes over lines, with what they move by if that is asked for.
+    pub fn new(
+        view: &View,
+        order: usize,
+        (nodes, derivatives): (&Nodes, bool),
+        around: &Around,
+        inner: f64,
+        outer: &[f64],
+    ) -> Self {
         let transform = transform();
-        let mut coarse = vec![[0.0; VALUES]; nodes.values.len()];
-        for (coarse, values) in coarse.chunks_exact_mut(NODES).zip(nodes.values.chunks_exact(NODES)) {
-            for (row, term) in transform.iter().zip(coarse) {
-                for (share, value) in row.iter().zip(values) {
-                    for v in 0..VALUES {
-                        term[v] += share * value[v];
-                    }
-                }
-            }
-        }
+        let coarse = |v: usize| {
+            let values = DMatrix::from_fn(NODES, nodes.directions, |k, j| nodes.values[j * NODES + k][v]);
+            &transform * values
+        };
+        let places = coarse(0);
         let size = |k: usize| {
-            let here = |j: usize| coarse[j * NODES + k][0].abs() / coarse[j * NODES][0].abs();
+            let here = |j: usize| (places[(k, j)] / places[(0, j)]).abs();
             (0..nodes.directions).map(here).fold(0.0, f64::max)
         };
         let used = (1..NODES).rev().find(|k| size(*k) > NEGLIGIBLE).map_or(2, |k| (k + 1).max(2));
-        let mut terms = vec![[0.0; TERM]; around.lines * NODES];
-        for (line, terms) in terms.chunks_exact_mut(NODES).enumerate() {
-            let at = line * around.directions;
-            for direction in 0..around.directions {
-                let (share, slope) = (around.shares[at + direction], around.slopes[at + direction]);
-                let from = &coarse[direction * NODES..][..used];
-                for (term, from) in terms.iter_mut().zip(from) {
-                    for v in 0..VALUES {
-                        term[v] += share * from[v];
-                    }
-                    term[VALUES] += slope * from[0];
-                }
-            }
-        }
+        let places = places.rows(0, used);
+        let terms = [places * &around.shares, places * &around.slopes];
+        let drifts = derivatives.then(|| {
+            let each: [DMatrix<f64>; HOLE] = std::array::from_fn(|p| coarse(1 + p));
+            DMatrix::from_fn(HOLE * used, nodes.directions, |row, j| each[row % HOLE][(row / HOLE, j)])
+                * &around.shares
+        });
         let rays = (0..around.lines)
             .map(|line| {
                 let chi = 2.0 * PI * line as f64 / around.lines as f64;
@@ -146,7 +141,7 @@ impl Lines {
                 [cos, sin, rate, view.weight(chi), slope]
             })
             .collect();
-        Self { order, terms, used, rays, inner, outer: around.spread(outer) }
+        Self { order, terms, drifts, rays, inner, outer: around.spread(outer) }
     }
 
     /// The point of a line at t.
@@ -156,30 +151,37 @@ impl Lines {
 
     /// The same with the polynomials at t.
     pub fn along(&self, line: usize, t: f64, basis: &Basis) -> Point {
-        let mut sum = [0.0; TERM];
-        let mut slope = 0.0;
-        let terms = &self.terms[line * NODES..][..self.used];
-        for (k, term) in terms.iter().enumerate() {
-            for v in 0..TERM {
-                sum[v] += basis.values[k] * term[v];
-            }
-            slope += basis.slopes[k] * term[0];
+        let [terms, turned] = &self.terms;
+        let used = terms.nrows();
+        let here = line * used..(line + 1) * used;
+        let (mut y, mut y_t, mut y_chi) = (0.0, 0.0, 0.0);
+        let both = terms.as_slice()[here.clone()].iter().zip(&turned.as_slice()[here]);
+        for (k, (term, turned)) in both.enumerate() {
+            y += basis.values[k] * term;
+            y_t += basis.slopes[k] * term;
+            y_chi += basis.values[k] * turned;
         }
         let [_, _, rate, weight, weight_slope] = self.rays[line];
         let [outer, outer_slope] = self.outer[line];
         let width = outer - self.inner;
         let x = self.inner + width * t;
         let s = scale(self.order, x);
-        let rho = (weight / sum[0]).sqrt() / s;
+        let rho = (weight / y).sqrt() / s;
         // d ln ρ = ½ d ln w − ½ d ln y − d ln s.
         let per_x = if self.order == 0 { 2.0 / x } else { 0.0 };
-        let rho_t = rho * (-0.5 * slope / sum[0] - per_x * width);
+        let rho_t = rho * (-0.5 * y_t / y - per_x * width);
         let x_chi = outer_slope * t;
-        let rho_chi = rho * (0.5 * weight_slope / weight - 0.5 * sum[VALUES] / sum[0] - per_x * x_chi);
+        let rho_chi = rho * (0.5 * weight_slope / weight - 0.5 * y_chi / y - per_x * x_chi);
         let per_rho = width / rho_t;
         let mut drift = [0.0; HOLE];
-        for p in 0..HOLE {
-            drift[p] = rho * sum[1 + p];
+        if let Some(drifts) = &self.drifts {
+            let rows = &drifts.as_slice()[line * HOLE * used..][..HOLE * used];
+            for (value, terms) in basis.values.iter().zip(rows.as_chunks::<HOLE>().0) {
+                for p in 0..HOLE {
+                    drift[p] += value * terms[p];
+                }
+            }
+            drift = drift.map(|d| rho * d);
         }
         Point { rho, x, slope: [per_rho, (x_chi - per_rho * rho_chi) / rate], drift }
     }
@@ -214,17 +216,13 @@ impl Lines {
 }
 
 /// From values at Chebyshev's nodes to the factors of T_k.
-fn transform() -> [[f64; NODES]; NODES] {
+fn transform() -> DMatrix<f64> {
     let n = (NODES - 1) as f64;
-    let mut rows = [[0.0; NODES]; NODES];
-    for (k, row) in rows.iter_mut().enumerate() {
-        for (j, share) in row.iter_mut().enumerate() {
-            // Nodes go from t = 0, where T_k is (−1)^k.
-            let z = 2.0 * node(j) - 1.0;
-            let polynomial = (k as f64 * z.clamp(-1.0, 1.0).acos()).cos();
-            let ends = |i: usize| if i == 0 || i == NODES - 1 { 0.5 } else { 1.0 };
-            *share = 2.0 / n * ends(j) * ends(k) * polynomial;
-        }
-    }
-    rows
+    DMatrix::from_fn(NODES, NODES, |k, j| {
+        // Nodes go from t = 0, where T_k is (−1)^k.
+        let z = 2.0 * node(j) - 1.0;
+        let polynomial = (k as f64 * z.clamp(-1.0, 1.0).acos()).cos();
+        let ends = |i: usize| if i == 0 || i == NODES - 1 { 0.5 } else { 1.0 };
+        2.0 / n * ends(j) * ends(k) * polynomial
+    })
 }

@@ -240,8 +240,11 @@ impl Painter {
             Screen::new(setting.spin, setting.inclination, setting.u, setting.frame, self.projection)
                 .turning(view.turn);
         let sketch = Sketch { above: *above, setting, view, screen: &screen, matter, lambda, derivatives };
-        let lines: Vec<Lines> =
-            images.iter().enumerate().map(|(order, image)| self.lines(view, order, *inner, image)).collect();
+        let lines: Vec<Lines> = images
+            .iter()
+            .enumerate()
+            .map(|(order, image)| self.lines(view, order, *inner, (image, derivatives)))
+            .collect();
         let size = setting.frame.size;
         let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
         for (order, image) in lines.iter().enumerate() {
@@ -253,11 +256,11 @@ impl Painter {
         canvas
     }
 
-    /// The image of an order along the lines.
-    fn lines(&self, view: &View, order: usize, inner: f64, image: &Image) -> Lines {
+    /// The image of an order along the lines, with what it moves by if that is asked for.
+    fn lines(&self, view: &View, order: usize, inner: f64, (image, derivatives): (&Image, bool)) -> Lines {
         let around = self.around[image.choice]
             .get_or_init(|| Around::new(DIRECTIONS[image.choice], self.fineness.lines));
-        Lines::new(view, order, &image.nodes, around, inner, &image.ends)
+        Lines::new(view, order, (&image.nodes, derivatives), around, inner, &image.ends)
     }
 
     /// The image of an order around a Kerr hole, and how it moves if asked for.

@@ -2,7 +2,7 @@
 
 use super::canvas::CHANNELS;
 use super::matter::Profile;
-use super::picture::{Fineness, Painter, Setting};
+use super::picture::{Fineness, Painter, Setting, Unseen};
 use super::screen::{Frame, Projection};
 use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
@@ -26,10 +26,50 @@ pub struct Disk {
 /// The closest that a hole's spin comes to 1.
 const MOST_SPIN: f64 = 0.998;
 
+/// Up to this inclination, radians, turning the axis about the line of sight changes less than what lines are off by; the change is
+/// that of pictures this far to both sides, radians.
+const FACE_ON: f64 = 5e-3;
+const ASIDE: f64 = 1e-2;
+
 impl Disk {
     /// An opaque disk, or one that holds nothing back.
     pub fn new(kind: Kind, opaque: bool, projection: Projection, fineness: Fineness) -> Self {
         Self { kind, painter: Painter::new(projection, opaque, fineness) }
+    }
+
+    fn setting(&self, values: &[f64], size: [usize; 2]) -> Result<Setting, Unpredictable> {
+        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer] = values[..9] else {
+            return Err(Unpredictable("too few parameters".to_owned()));
+        };
+        Ok(Setting {
+            spin,
+            inclination: inclination.to_radians(),
+            u: distance.recip(),
+            inner,
+            outer,
+            profile: match self.kind {
+                Kind::PageThorne => Profile::PageThorne,
+                Kind::PowerLaw => Profile::PowerLaw { index: values[9] },
+            },
+            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
+        })
+    }
+
+    /// The change with the position angle χ, per radian, of a disk that is seen nearly face-on: with the axis at
+    /// v = 2 tan(i/2) (cos χ, sin χ) it is |v| times that with v across.
+    fn turned(&self, setting: &Setting) -> Result<Vec<f64>, Unseen> {
+        let reach = 2.0 * (0.5 * setting.inclination).tan();
+        let (sin, cos) = setting.frame.position_angle.sin_cos();
+        let aside = |step: f64| {
+            let [x, y] = [reach * cos - step * sin, reach * sin + step * cos];
+            let mut setting = *setting;
+            setting.inclination = 2.0 * (0.5 * x.hypot(y)).atan();
+            setting.frame.position_angle = y.atan2(x);
+            self.painter.draw(&setting, false)
+        };
+        let [left, right] = [aside(ASIDE)?, aside(-ASIDE)?];
+        let both = left.pixels().iter().zip(right.pixels());
+        Ok(both.map(|(left, right)| reach * (left[0] - right[0]) / (2.0 * ASIDE)).collect())
     }
 
     /// The channel of each parameter, and the factor of its derivative.
@@ -131,22 +171,9 @@ impl Source for Disk {
     }
 
     fn draw(&self, values: &[f64], size: [usize; 2], derivatives: bool) -> Result<Prediction, Unpredictable> {
-        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer] = values[..9] else {
-            return Err(Unpredictable("too few parameters".to_owned()));
-        };
-        let setting = Setting {
-            spin,
-            inclination: inclination.to_radians(),
-            u: distance.recip(),
-            inner,
-            outer,
-            profile: match self.kind {
-                Kind::PageThorne => Profile::PageThorne,
-                Kind::PowerLaw => Profile::PowerLaw { index: values[9] },
-            },
-            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
-        };
+        let setting = self.setting(values, size)?;
         let unseen = |_| {
+            let [spin, inclination, scale, distance] = [0, 1, 3, 6].map(|k| values[k]);
             Unpredictable(format!(
                 "a disk of spin {spin:.4}, seen from {inclination:.3}°, {distance} M away, {scale:.4} M a pixel"
             ))
@@ -160,11 +187,15 @@ impl Source for Disk {
         if derivatives {
             prediction.derivatives =
                 self.channels(values).into_iter().map(|(at, factor)| channel(at, factor)).collect();
+            if setting.inclination < FACE_ON {
+                let turned = self.turned(&setting).map_err(unseen)?;
+                prediction.derivatives[2] = turned.into_iter().map(|t| t * 1f64.to_radians()).collect();
+            }
         }
         if prediction.values.iter().all(|value| value.is_finite()) {
             Ok(prediction)
         } else {
-            Err(unseen(super::Unseen))
+            Err(unseen(Unseen))
         }
     }
 
