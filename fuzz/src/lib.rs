@@ -1,7 +1,7 @@
 //! What is done with bytes that may be anything. A panic is a fault found.
 //!
 //! The targets of libFuzzer call this, and so do ordinary tests, which include this file:
-//! `crates/kerrscope/tests/fuzz.rs`.
+//! `crates/kerrscope/tests/all/fuzz.rs`.
 
 use std::io::Cursor;
 use std::path::Path;

@@ -19,6 +19,7 @@ mod side_view;
 mod source;
 mod spacetime;
 mod spectrum;
+mod survey;
 mod theory;
 mod thesis;
 mod trace;
@@ -79,6 +80,8 @@ enum Command {
     Validate(validate::Arguments),
     /// Rays per second, and how exact they are
     Bench(bench::Arguments),
+    /// Pictures of a scene over ranges of its keys, on one machine or many
+    Survey(survey::Arguments),
     /// Check a scene, or print it with every default
     Scene(scene::Arguments),
     /// Print the JSON Schema of scene files
@@ -117,6 +120,7 @@ fn main() -> ExitCode {
         Command::Measure(a) => measure::run(&a),
         Command::Thesis(a) => thesis::run(&a),
         Command::Spacetime(a) => spacetime::run(&a),
+        Command::Survey(a) => survey::run(&a, arguments.talk.quiet),
         Command::Validate(a) => validate::run(&a),
         Command::Bench(a) => bench::run(&a),
         Command::Scene(a) => scene::run(&a),

@@ -49,3 +49,19 @@ pub fn message(quiet: bool) -> ProgressBar {
     bar.enable_steady_tick(Duration::from_millis(200));
     bar
 }
+
+/// A bar that counts pictures, with the time left; nothing unless standard error is a terminal.
+pub fn count(pictures: u64, quiet: bool) -> ProgressBar {
+    if quiet || !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(pictures);
+    let left = |state: &ProgressState, w: &mut dyn Write| {
+        let _ = write!(w, "{} left", HumanDuration(state.eta()));
+    };
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len}  {left}") {
+        bar.set_style(style.with_key("left", left));
+    }
+    bar.enable_steady_tick(Duration::from_millis(200));
+    bar
+}

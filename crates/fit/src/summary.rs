@@ -1,5 +1,7 @@
 //! What draws say of a parameter.
 
+use std::f64::consts::TAU;
+
 use serde::Serialize;
 
 use crate::diagnostics::{Convergence, quantile};
@@ -35,6 +37,9 @@ pub struct Estimate {
     pub effective: Option<f64>,
 }
 
+/// From this share of a turn on the standard deviation of an angle says that it is hardly told.
+pub const SPREAD: f64 = 0.07;
+
 impl Estimate {
     /// Of a parameter that is known.
     pub fn fixed(name: &str, unit: &str, value: f64) -> Self {
@@ -69,7 +74,22 @@ impl Estimate {
         let sd = (all.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / (count - 1.0)).sqrt();
         let back = |x: f64| turn.map_or(x, |turn| (x + middle).rem_euclid(turn));
         let at = |share: f64| back(quantile(&all, share));
-        let convergence = Convergence::of(&unwrapped);
+        let convergence = match turn {
+            // An angle from all around has no ends: its direction is what chains have to agree on.
+            Some(turn) if sd > SPREAD * turn => {
+                let along = |f: fn(f64) -> f64| {
+                    let part = |x: &f64| f(x / turn * TAU);
+                    Convergence::of(&chains.iter().map(|c| c.iter().map(part).collect()).collect::<Vec<_>>())
+                };
+                let [x, y] = [along(f64::cos), along(f64::sin)];
+                Convergence {
+                    r_hat: x.r_hat.max(y.r_hat),
+                    bulk: x.bulk.min(y.bulk),
+                    tail: x.tail.min(y.tail),
+                }
+            }
+            _ => Convergence::of(&unwrapped),
+        };
         Self {
             name: name.to_owned(),
             unit: unit.to_owned(),
@@ -96,10 +116,10 @@ impl Estimate {
 fn circular_mean(chains: &[Vec<f64>], turn: f64) -> f64 {
     let (mut x, mut y) = (0.0, 0.0);
     for value in chains.iter().flatten() {
-        let (sin, cos) = (value / turn * std::f64::consts::TAU).sin_cos();
+        let (sin, cos) = (value / turn * TAU).sin_cos();
         (x, y) = (x + cos, y + sin);
     }
-    y.atan2(x) / std::f64::consts::TAU * turn
+    y.atan2(x) / TAU * turn
 }
 
 #[cfg(test)]

@@ -3,6 +3,7 @@
 use crate::fit::{Fit, Image};
 use crate::model::{Freedom, Parameter};
 use crate::noise::peak;
+use crate::summary::SPREAD;
 
 /// A model that leaves more of a picture's variance than this, beyond its noise, does not describe it.
 const UNEXPLAINED: f64 = 0.05;
@@ -85,7 +86,7 @@ pub fn judge(
         let [low, high] = prior.range(parameter.bounds);
         let wide = prior.deviation(parameter.bounds);
         match parameter.name {
-            "position_angle" if estimate.sd > 60.0 => warnings.push(
+            "position_angle" if estimate.sd > SPREAD * 360.0 => warnings.push(
                 "the position angle cannot be told: the picture is as good as the same all around, as of a disk seen face-on; nor can it be \
                  told whether that is seen from above or below, at 180° less the inclination"
                     .to_owned(),

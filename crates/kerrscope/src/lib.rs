@@ -19,6 +19,7 @@ pub mod scene;
 pub mod si;
 pub mod sky;
 pub mod spectrum;
+pub mod survey;
 pub mod texture;
 pub mod units;
 pub mod validate;

@@ -64,27 +64,29 @@ pub struct Fineness {
     pub bend: f64,
     /// How many image orders, 1 to 4.
     pub orders: usize,
+    /// The size of the last terms around, as a share of the first, at which a series is long enough.
+    pub tail: f64,
 }
 
 impl Default for Fineness {
     /// Such that means over pixels are within 1e-3 of the brightest.
     fn default() -> Self {
-        Self { lines: 320, step: 0.03, bend: 0.06, orders: ORDERS }
+        Self { lines: 320, step: 0.03, bend: 0.06, orders: ORDERS, tail: 3e-6 }
     }
 }
 
 impl Fineness {
     /// Such that means are within 3e-3 of the brightest, for pictures that are noisier.
-    pub const MEDIUM: Self = Self { lines: 160, step: 0.06, bend: 0.12, orders: 3 };
+    pub const MEDIUM: Self = Self { lines: 160, step: 0.06, bend: 0.12, orders: 3, tail: 1e-4 };
     /// Enough to see what a picture is of: within some percent.
-    pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2 };
+    pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2, tail: 1e-3 };
 }
 
 /// Numbers of directions in which images may be solved for, and up to which inclination the first are enough.
 const DIRECTIONS: [usize; 5] = [32, 64, 128, 256, 512];
 
-/// The size of the last terms around, as a share of the first, at which a series is long enough.
-const CONVERGED: f64 = 3e-6;
+/// A tail from which on a series that is half as long is looked at first.
+const COARSE: f64 = 3e-5;
 
 /// A disk as it is seen: where its edges lie, and how they move.
 pub(super) struct Stand<'a> {
@@ -270,10 +272,13 @@ impl Painter {
         if view.inclination.cos() < 0.2 {
             first = 3;
         }
+        if self.fineness.tail >= COARSE {
+            first -= 1;
+        }
         for (choice, directions) in DIRECTIONS.into_iter().enumerate().skip(first) {
             let ends = stand.outers(order, directions);
             let nodes = solve(view, &self.landings, order, (stand.inner, &ends), derivatives)?;
-            if choice + 1 == DIRECTIONS.len() || nodes.tail() <= CONVERGED {
+            if choice + 1 == DIRECTIONS.len() || nodes.tail() <= self.fineness.tail {
                 return Ok(Image { choice, nodes, ends });
             }
         }

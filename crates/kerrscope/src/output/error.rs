@@ -18,7 +18,7 @@ pub struct FileError {
 }
 
 impl FileError {
-    pub(super) fn new(
+    pub(crate) fn new(
         action: &'static str,
         path: &Path,
         fault: impl Into<String>,

@@ -10,7 +10,7 @@ use super::tree::{Node, Value};
 ///
 /// What does not fit is reported and taken out of the tree, so that the rest can be read.
 /// Returns the paths at which something was taken out.
-pub(super) fn check(root: &mut Node, schema: &Json, faults: &mut Collector) -> Vec<String> {
+pub(crate) fn check(root: &mut Node, schema: &Json, faults: &mut Collector) -> Vec<String> {
     let mut check = Check { schema, faults, removed: Vec::new() };
     if let Value::Table(_) = root.value {
         check.table(root, schema, "");

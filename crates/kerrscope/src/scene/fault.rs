@@ -87,6 +87,22 @@ impl Faults {
         self.omitted
     }
 
+    /// These and others that are not among them.
+    pub(crate) fn and(mut self, others: Self) -> Self {
+        self.omitted += others.omitted;
+        for fault in others {
+            if self.faults.iter().any(|known| known.to_string() == fault.to_string()) {
+                continue;
+            }
+            if self.faults.len() < Self::MAX {
+                self.faults.push(fault);
+            } else {
+                self.omitted += 1;
+            }
+        }
+        self
+    }
+
     /// The faults, one by one.
     pub fn iter(&self) -> std::slice::Iter<'_, Fault> {
         self.faults.iter()

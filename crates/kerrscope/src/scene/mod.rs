@@ -31,15 +31,15 @@
 //! ```
 
 mod build;
-mod check;
-mod fault;
+pub(crate) mod check;
+pub(crate) mod fault;
 pub mod file;
 mod metric;
 mod overrides;
-mod read;
+pub(crate) mod read;
 mod scan;
 mod shape;
-mod tree;
+pub(crate) mod tree;
 mod valid;
 
 use std::path::Path;

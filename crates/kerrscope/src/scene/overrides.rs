@@ -11,9 +11,9 @@ use super::tree::{self, Node, Value};
 
 /// Puts one override into a tree, in place of what the tree said.
 ///
-/// Returns whether it could be read. `number` counts the overrides from 1.
-pub(super) fn merge(root: &mut Node, text: &str, number: usize, faults: &mut Collector) -> bool {
-    let source = Source::new(format!("--set #{number}"), text);
+/// Returns whether it could be read. `name` is what faults call it.
+pub(super) fn merge(root: &mut Node, text: &str, name: &str, faults: &mut Collector) -> bool {
+    let source = Source::new(name, text);
     faults.add_source(&source);
     let Some((path, value)) = read(&source, faults) else {
         return false;

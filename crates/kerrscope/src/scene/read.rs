@@ -18,7 +18,7 @@ static SCHEMA: LazyLock<serde_json::Value> = LazyLock::new(SceneFile::schema);
 /// Reads the keys of a scene, each by itself.
 pub(super) fn keys(source: Arc<Source>) -> Result<SceneFile, Faults> {
     let mut faults = Collector::default();
-    let typed = type_in(Ok(source), &[], &mut faults);
+    let typed = type_in(Ok(source), (GIVEN, &[]), &mut faults);
     faults.finish(typed.file)
 }
 
@@ -39,14 +39,26 @@ pub(super) fn spacetime(
     overrides: &[String],
     faults: &mut Collector,
 ) -> (Spacetime, Node) {
-    let Typed { file, root, .. } = type_in(source, overrides, faults);
+    let Typed { file, root, .. } = type_in(source, (GIVEN, overrides), faults);
     (file.spacetime, root)
 }
+
+/// What overrides are called that stand on a command line.
+const GIVEN: &str = "--set";
 
 /// Reads a scene.
 pub(super) fn scene(
     source: Result<Arc<Source>, Fault>,
     overrides: &[String],
+    folder: &Path,
+) -> Result<Scene, Faults> {
+    varied(source, (GIVEN, overrides), folder)
+}
+
+/// Reads a scene; faults call the overrides by a name and their number, from 1.
+pub(crate) fn varied(
+    source: Result<Arc<Source>, Fault>,
+    overrides: (&str, &[String]),
     folder: &Path,
 ) -> Result<Scene, Faults> {
     let mut faults = Collector::default();
@@ -69,7 +81,11 @@ struct Typed {
     complete: bool,
 }
 
-fn type_in(source: Result<Arc<Source>, Fault>, overrides: &[String], faults: &mut Collector) -> Typed {
+fn type_in(
+    source: Result<Arc<Source>, Fault>,
+    (name, overrides): (&str, &[String]),
+    faults: &mut Collector,
+) -> Typed {
     let source = source.and_then(|source| match source.text.len() {
         0..=MAX_BYTES => Ok(source),
         _ => Err(too_large(&source.name)),
@@ -88,7 +104,7 @@ fn type_in(source: Result<Arc<Source>, Fault>, overrides: &[String], faults: &mu
         }
     };
     for (i, text) in overrides.iter().enumerate() {
-        complete &= overrides::merge(&mut root, text, i + 1, faults);
+        complete &= overrides::merge(&mut root, text, &format!("{name} #{}", i + 1), faults);
     }
     let removed = check::check(&mut root, &SCHEMA, faults);
     let file = root.to_toml().try_into().unwrap_or_else(|error: toml::de::Error| {
@@ -101,7 +117,7 @@ fn type_in(source: Result<Arc<Source>, Fault>, overrides: &[String], faults: &mu
 }
 
 /// Reads a scene file.
-pub(super) fn file(path: &Path) -> Result<Arc<Source>, Fault> {
+pub(crate) fn file(path: &Path) -> Result<Arc<Source>, Fault> {
     let name = path.display().to_string();
     let fault = |message: String, help: &str| Fault {
         source: Source::new(name.as_str(), ""),

@@ -11,16 +11,16 @@ use super::scan;
 
 /// A value and where it stands.
 #[derive(Clone, Debug)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// The key, or the value if it has no key.
-    pub(super) key: Place,
-    pub(super) place: Place,
-    pub(super) value: Value,
+    pub(crate) key: Place,
+    pub(crate) place: Place,
+    pub(crate) value: Value,
 }
 
 /// What TOML can say.
 #[derive(Clone, Debug)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Text(String),
     /// `None` if no machine integer holds it.
     Whole(Option<i128>),
@@ -40,7 +40,7 @@ impl Node {
     }
 
     /// The value at a path such as `observer.distance` or `object[3].radius`, if it was typed.
-    pub(super) fn at(&self, path: &str) -> Option<&Self> {
+    pub(crate) fn at(&self, path: &str) -> Option<&Self> {
         path.split('.').try_fold(self, |node, part| {
             let Value::Table(table) = &node.value else { return None };
             let Some((key, index)) = part.split_once('[') else { return table.get(part) };
@@ -50,7 +50,7 @@ impl Node {
     }
 
     /// The tree without its places, to be read by serde.
-    pub(super) fn to_toml(&self) -> toml::Value {
+    pub(crate) fn to_toml(&self) -> toml::Value {
         match &self.value {
             Value::Text(text) => toml::Value::String(text.clone()),
             Value::Whole(whole) => {
@@ -72,7 +72,7 @@ impl Node {
 /// Reads a text. What is faulty is reported and left out; the rest is in the tree.
 ///
 /// The second answer is whether nothing was left out.
-pub(super) fn parse(source: &Arc<Source>, faults: &mut Collector) -> (Node, bool) {
+pub(crate) fn parse(source: &Arc<Source>, faults: &mut Collector) -> (Node, bool) {
     let statements = scan::statements(&source.text);
     let mut faulty = scan::refuse(&statements, source, faults);
     let mut complete = !faulty.contains(&true);
