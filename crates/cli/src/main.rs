@@ -19,7 +19,6 @@ mod side_view;
 mod source;
 mod spacetime;
 mod spectrum;
-mod theory;
 mod thesis;
 mod trace;
 mod validate;

@@ -16,12 +16,14 @@ pub mod nuts;
 mod observed;
 pub mod output;
 mod prior;
+pub mod question;
 mod reduce;
 pub mod request;
 mod ring;
 mod search;
 pub mod silhouette;
 pub mod summary;
+pub mod task;
 pub mod traced;
 mod verdict;
 

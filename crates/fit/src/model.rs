@@ -45,7 +45,7 @@ pub struct Prediction {
 pub struct Unpredictable(pub String);
 
 /// Light, as a function of parameters among which are those of where the picture is.
-pub trait Source: Sync {
+pub trait Source: Send + Sync {
     /// Its parameters. Those called `center_x` and `center_y` are in pixels from the middle of the picture, to the right and up.
     fn parameters(&self) -> Vec<Parameter>;
 
