@@ -219,4 +219,10 @@ impl<'a> Report<'a> {
             version: env!("CARGO_PKG_VERSION"),
         }
     }
+
+    /// What files say of the model: its name, and what was fixed.
+    pub fn words(&self) -> Vec<(String, String)> {
+        let fixed = self.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string()));
+        std::iter::once(("model".to_owned(), self.model.to_owned())).chain(fixed).collect()
+    }
 }

@@ -1,35 +1,35 @@
-//! The compiled part of the Python package `kerrscope`.
-use pyo3::prelude::*;
+//! The compiled part of the Python package `kerrscope`: what the library does, with numpy's arrays and Python's exceptions.
+//!
+//! The package's own modules (`python/kerrscope`) are what people import; this one takes and gives plain numbers, texts and
+//! arrays. Long work runs without the interpreter's lock, in a pool of threads of its own, and stops at Ctrl-C (`work`).
 
-/// x
-#[pyclass(frozen)]
-pub struct Foo {
-    x: f64,
-}
+mod arrays;
+mod faults;
+mod film;
+mod fit;
+mod model;
+mod numbers;
+mod picture;
+mod rays;
+mod scene;
+mod work;
 
-#[pymethods]
-impl Foo {
-    /// n
-    #[new]
-    fn new(x: f64) -> Self {
-        Self { x }
-    }
-    /// g
-    #[getter]
-    fn x(&self) -> f64 {
-        self.x
-    }
-}
-
-/// f
-#[pyfunction]
-#[pyo3(signature = (x, y=None))]
-fn f(x: f64, y: Option<f64>) -> PyResult<f64> {
-    Ok(x + y.unwrap_or(0.0))
-}
+use pyo3::prelude::pymodule;
 
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use super::{Foo, f};
+    use super::film::Film;
+    #[pymodule_export]
+    use super::fit::{Fit, fit};
+    #[pymodule_export]
+    use super::model::Model;
+    #[pymodule_export]
+    use super::numbers::{critical_points, level, measure, orbits, shadow, version};
+    #[pymodule_export]
+    use super::picture::Picture;
+    #[pymodule_export]
+    use super::rays::trace;
+    #[pymodule_export]
+    use super::scene::Scene;
 }

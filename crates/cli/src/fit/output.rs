@@ -22,9 +22,7 @@ pub fn files(name: &Path, image: &Image, found: &Fit, output: &Report<'_>) -> Re
     let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
     let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
     whole(&file(".json"), &json)?;
-    let words: Vec<(String, String)> = std::iter::once(("model".to_owned(), output.model.to_owned()))
-        .chain(output.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string())))
-        .collect();
+    let words = output.words();
     let record = Record { seed: output.seed, model: &words };
     chain::write(&file(".chain.h5"), found, &record).map_err(|e| failed(&e))?;
     let title = format!("{} fitted to {}", output.model, name.display());

@@ -14,6 +14,8 @@ use super::{Scene, UNNAMED, read};
 /// draft.set("render.width", "200");
 /// assert_eq!(draft.overrides, ["render.width=200"]);
 /// assert_eq!(draft.scene()?.render.width, 200);
+/// draft.unset("spacetime.spin");
+/// assert_eq!(draft.scene()?.spacetime.spin(), Some(0.99));
 /// # Ok::<(), kerrscope::scene::Faults>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,12 +48,31 @@ impl Draft {
 
     /// Changes a key to a value in TOML. An earlier change of the same key, or of one within it, is forgotten.
     pub fn set(&mut self, path: &str, value: &str) {
+        self.forget(path);
+        self.overrides.push(format!("{path}={value}"));
+    }
+
+    /// Takes a key away, so that its default counts. If the text has it, the text is written anew, without comments.
+    pub fn unset(&mut self, path: &str) {
+        self.forget(path);
+        let Ok(mut table) = self.text.parse::<toml::Table>() else { return };
+        let (last, sections) = match path.rsplit_once('.') {
+            Some((sections, last)) => (last, sections.split('.').collect()),
+            None => (path, Vec::new()),
+        };
+        let within = sections.iter().try_fold(&mut table, |table, name| table.get_mut(*name)?.as_table_mut());
+        if within.and_then(|table| table.remove(last)).is_some() {
+            self.text = table.to_string();
+        }
+    }
+
+    /// Forgets changes of a key, and of those within it.
+    fn forget(&mut self, path: &str) {
         let within = |change: &String| {
             let key = change.split('=').next().unwrap_or_default().trim();
             key.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
         };
         self.overrides.retain(|change| !within(change));
-        self.overrides.push(format!("{path}={value}"));
     }
 
     /// The scene.
