@@ -80,7 +80,9 @@ pub fn modes(
         })
         .collect();
     let ascend = |places: &[Vec<f64>], most: usize| -> Vec<Mode> {
-        let climbed = |q: &Vec<f64>| if (options.cancelled)() { None } else { climb(&near, q, most) };
+        let climbed = |q: &Vec<f64>| {
+            if (options.cancelled)() { None } else { climb(&near, q, most, options.cancelled) }
+        };
         let mut modes: Vec<Mode> = places.par_iter().filter_map(climbed).collect();
         modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
         modes
@@ -122,7 +124,7 @@ pub fn modes(
             if posterior.noise.unknown.is_some() {
                 q.push(0.0);
             }
-            if (options.cancelled)() { None } else { climb(posterior, &q, 60) }
+            if (options.cancelled)() { None } else { climb(posterior, &q, 60, options.cancelled) }
         })
         .collect();
     evaluations += found.iter().map(|mode| mode.evaluations).sum::<usize>();

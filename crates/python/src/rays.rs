@@ -4,12 +4,12 @@ use kerrscope::render::hole_tracer;
 use kerrscope::spacetime::emitter::{Circular, Sense};
 use kerrscope::spacetime::geodesic::{Path, Query, Ray, Side, Tracer};
 use kerrscope::spacetime::observer::{ImpactScreen, ObserverError};
-use numpy::PyReadonlyArrayDyn;
+use numpy::{PyReadonlyArrayDyn, PyReadwriteArrayDyn};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
 use rayon::prelude::*;
+use std::sync::atomic::Ordering;
 
-use crate::arrays::{shaped, slice};
+use crate::arrays::slice;
 use crate::faults::wrong;
 use crate::numbers::{known_inclination, known_spin};
 use crate::work::{self, Signals, Told};
@@ -17,81 +17,31 @@ use crate::work::{self, Signals, Told};
 /// Rays followed together: as many as the closed form sorts at a time.
 const BATCH: usize = 1000;
 
-/// What is wanted, a number for each ray, or for each order of each ray.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Quantity {
-    Fate,
-    Steps,
-    ErrorEstimate,
-    Lambda,
-    Eta,
-    Theta,
-    DirectionPhi,
-    R,
-    Phi,
-    T,
-    G,
-}
+/// Numbers of a ray, and of each of its crossings, by their names.
+const NAMES: [&str; 11] =
+    ["fate", "steps", "error_estimate", "lambda", "eta", "theta", "sky_phi", "r", "phi", "t", "g"];
 
-impl Quantity {
-    const ALL: [Self; 11] = [
-        Self::Fate,
-        Self::Steps,
-        Self::ErrorEstimate,
-        Self::Lambda,
-        Self::Eta,
-        Self::Theta,
-        Self::DirectionPhi,
-        Self::R,
-        Self::Phi,
-        Self::T,
-        Self::G,
-    ];
+/// Where those of crossings begin among the names.
+const CROSSINGS: usize = 7;
 
-    /// Its name among what is wanted: a direction is two numbers.
-    const fn wanted(self) -> &'static str {
-        match self {
-            Self::Fate => "fate",
-            Self::Steps => "steps",
-            Self::ErrorEstimate => "error_estimate",
-            Self::Lambda => "lambda",
-            Self::Eta => "eta",
-            Self::Theta | Self::DirectionPhi => "direction",
-            Self::R => "r",
-            Self::Phi => "phi",
-            Self::T => "t",
-            Self::G => "g",
-        }
-    }
+/// A place for each name; nothing where it is not wanted.
+type Places<'a> = [&'a mut [f64]; NAMES.len()];
 
-    /// Its name in what is given.
-    const fn given(self) -> &'static str {
-        match self {
-            Self::Theta => "theta",
-            Self::DirectionPhi => "phi",
-            other => other.wanted(),
-        }
-    }
-
-    const fn of_crossings(self) -> bool {
-        matches!(self, Self::R | Self::Phi | Self::T | Self::G)
-    }
-}
-
-/// The part of the answers that a batch fills: a slice for each quantity.
+/// The part of the answers that a batch fills.
 struct Part<'a> {
     first: usize,
-    slices: Vec<&'a mut [f64]>,
+    count: usize,
+    places: Places<'a>,
 }
 
 /// What all rays share.
 struct Course<'a> {
     screen: ImpactScreen,
     spin: f64,
-    matter: Option<Circular>,
+    matter: Circular,
     tracer: &'a dyn Tracer,
     query: Query,
-    wanted: &'a [Quantity],
+    orders: usize,
     impacts: [&'a [f64]; 2],
 }
 
@@ -100,107 +50,116 @@ type Refused = (usize, ObserverError);
 
 impl Course<'_> {
     /// Follows a batch, and puts the answers in their places.
-    fn follow(
-        &self,
-        part: &mut Part<'_>,
-        rays: &mut Vec<Ray>,
-        paths: &mut Vec<Path>,
-        count: usize,
-    ) -> Result<(), Refused> {
-        let [alpha, beta] = self.impacts.map(|values| &values[part.first..part.first + count]);
+    fn follow(&self, part: &mut Part<'_>, (rays, paths): &mut (Vec<Ray>, Vec<Path>)) -> Result<(), Refused> {
+        let Part { first, count, places } = part;
+        let [alpha, beta] = self.impacts.map(|values| &values[*first..*first + *count]);
         rays.clear();
         for (k, (alpha, beta)) in alpha.iter().zip(beta).enumerate() {
-            rays.push(self.screen.ray([*alpha, *beta]).map_err(|error| (part.first + k, error))?);
+            rays.push(self.screen.ray([*alpha, *beta]).map_err(|error| (*first + k, error))?);
         }
-        paths.resize_with(count, Path::default);
+        paths.resize_with(*count, Path::default);
         self.tracer.trace_all(rays, &self.query, paths);
-        let orders = self.query.max_crossings;
-        for (quantity, slice) in self.wanted.iter().zip(&mut part.slices) {
-            match quantity {
-                Quantity::R => each_crossing(slice, paths, orders, |c| c.r),
-                Quantity::Phi => each_crossing(slice, paths, orders, |c| c.phi),
-                Quantity::T => each_crossing(slice, paths, orders, |c| c.elapsed),
-                Quantity::G => self.redshifts(slice, rays, paths),
-                Quantity::Theta => each(slice, paths, |p| p.direction.map_or(f64::NAN, |d| d[0])),
-                Quantity::DirectionPhi => each(slice, paths, |p| p.direction.map_or(f64::NAN, |d| d[1])),
-                Quantity::Fate => each(slice, paths, |p| f64::from(p.fate as u8)),
-                Quantity::Steps => each(slice, paths, |p| p.steps as f64),
-                Quantity::ErrorEstimate => each(slice, paths, |p| p.error_estimate),
-                Quantity::Lambda => each(slice, rays, |ray| ray.conserved(self.spin).lambda),
-                Quantity::Eta => each(slice, rays, |ray| ray.conserved(self.spin).eta),
-            }
-        }
+        self.ends(places, rays, paths);
+        self.crossings(places, rays, paths);
         Ok(())
     }
 
-    /// g of matter on circular orbits at each crossing.
-    fn redshifts(&self, slice: &mut [f64], rays: &[Ray], paths: &[Path]) {
-        let orders = self.query.max_crossings;
-        for ((to, path), ray) in slice.chunks_exact_mut(orders).zip(paths).zip(rays) {
-            let lambda = ray.conserved(self.spin).lambda;
-            let energy = if ray.side == Side::Reversed { ray.energy } else { -ray.energy };
-            to.fill(f64::NAN);
-            for (to, crossing) in to.iter_mut().zip(&path.crossings) {
-                let orbit = self.matter.as_ref().and_then(|matter| matter.orbit(crossing.r));
-                *to = orbit.and_then(|orbit| orbit.redshift_factor(lambda, energy)).unwrap_or(f64::NAN);
+    /// What is known of whole rays.
+    fn ends(&self, places: &mut Places<'_>, rays: &[Ray], paths: &[Path]) {
+        let [fate, steps, error, lambda, eta, theta, phi, ..] = places;
+        for (k, (ray, path)) in rays.iter().zip(paths).enumerate() {
+            if !theta.is_empty() || !phi.is_empty() {
+                let direction = path.direction.unwrap_or([f64::NAN; 2]);
+                put(theta, k, direction[0]);
+                put(phi, k, direction[1]);
+            }
+            put(fate, k, f64::from(path.fate as u8));
+            put(steps, k, path.steps as f64);
+            put(error, k, path.error_estimate);
+            if !lambda.is_empty() || !eta.is_empty() {
+                let conserved = ray.conserved(self.spin);
+                put(lambda, k, conserved.lambda);
+                put(eta, k, conserved.eta);
+            }
+        }
+    }
+
+    /// What is known of crossings; g is that of matter on circular orbits.
+    fn crossings(&self, places: &mut Places<'_>, rays: &[Ray], paths: &[Path]) {
+        let [.., r, phi, t, g] = places;
+        if [&r, &phi, &t, &g].iter().all(|place| place.is_empty()) {
+            return;
+        }
+        for (k, (ray, path)) in rays.iter().zip(paths).enumerate() {
+            let at = k * self.orders;
+            for (n, crossing) in path.crossings.iter().take(self.orders).enumerate() {
+                put(r, at + n, crossing.r);
+                put(phi, at + n, crossing.phi);
+                put(t, at + n, crossing.elapsed);
+            }
+            for place in [&mut *r, &mut *phi, &mut *t, &mut *g] {
+                for n in path.crossings.len()..self.orders {
+                    put(place, at + n, f64::NAN);
+                }
+            }
+            if !g.is_empty() {
+                let lambda = ray.conserved(self.spin).lambda;
+                let energy = if ray.side == Side::Reversed { ray.energy } else { -ray.energy };
+                for (n, crossing) in path.crossings.iter().take(self.orders).enumerate() {
+                    let orbit = self.matter.orbit(crossing.r);
+                    let factor = orbit.and_then(|orbit| orbit.redshift_factor(lambda, energy));
+                    put(g, at + n, factor.unwrap_or(f64::NAN));
+                }
             }
         }
     }
 }
 
-fn each<T>(slice: &mut [f64], of: &[T], value: impl Fn(&T) -> f64) {
-    for (to, from) in slice.iter_mut().zip(of) {
-        *to = value(from);
+/// Puts a number where it is wanted.
+#[inline]
+fn put(place: &mut [f64], at: usize, number: f64) {
+    if let Some(place) = place.get_mut(at) {
+        *place = number;
     }
 }
 
-fn each_crossing(
-    slice: &mut [f64],
-    paths: &[Path],
-    orders: usize,
-    value: impl Fn(&kerrscope::spacetime::geodesic::Crossing) -> f64,
-) {
-    for (to, path) in slice.chunks_exact_mut(orders).zip(paths) {
-        for (n, to) in to.iter_mut().enumerate() {
-            *to = path.crossings.get(n).map_or(f64::NAN, &value);
+/// Cuts places into the parts of batches.
+fn parts<'a>(places: Places<'a>, count: usize, orders: usize) -> Vec<Part<'a>> {
+    let mut rest = places;
+    let mut parts = Vec::with_capacity(count.div_ceil(BATCH));
+    for first in (0..count).step_by(BATCH) {
+        let many = BATCH.min(count - first);
+        let mut places = NAMES.map(|_| &mut [][..]);
+        for (k, (rest, place)) in rest.iter_mut().zip(&mut places).enumerate() {
+            let width = if k < CROSSINGS { many } else { many * orders };
+            let (own, after) = std::mem::take(rest).split_at_mut_checked(width).unwrap_or_default();
+            (*place, *rest) = (own, after);
         }
-    }
-}
-
-/// Cuts arrays into the parts of batches.
-fn parts<'a>(arrays: &'a mut [Vec<f64>], wanted: &[Quantity], count: usize, orders: usize) -> Vec<Part<'a>> {
-    let mut parts: Vec<Part<'a>> =
-        (0..count).step_by(BATCH).map(|first| Part { first, slices: Vec::new() }).collect();
-    for (array, quantity) in arrays.iter_mut().zip(wanted) {
-        let width = if quantity.of_crossings() { orders } else { 1 };
-        let mut rest = array.as_mut_slice();
-        for part in &mut parts {
-            let (slice, after) = rest.split_at_mut((BATCH * width).min(rest.len()));
-            part.slices.push(slice);
-            rest = after;
-        }
+        parts.push(Part { first, count: many, places });
     }
     parts
 }
 
-/// Follows rays of one hole and one observer.
+/// Follows rays of one hole and one observer, and puts what is asked for into arrays of one number a ray, or one for each order of each
+/// ray. Python made these, whose memory is in large pages.
 ///
-/// Fates are 0 escaped, 1 captured, 2 hit, 3 step-limit. Crossings are rays × orders, NaN where there is none.
+/// Fates are 0 escaped, 1 captured, 2 hit, 3 step-limit. NaN is what there is not.
 #[pyfunction]
-#[pyo3(signature = (spin, inclination, distance, alpha, beta, engine, orders, quantities, threads = None))]
+#[pyo3(signature = (spin, inclination, distance, alpha, beta, engine, orders, names, arrays, threads = None))]
 #[expect(clippy::too_many_arguments, reason = "Python's own function names them")]
-pub fn trace<'py>(
-    py: Python<'py>,
+pub fn trace(
+    py: Python<'_>,
     spin: f64,
     inclination: f64,
     distance: f64,
-    alpha: PyReadonlyArrayDyn<'py, f64>,
-    beta: PyReadonlyArrayDyn<'py, f64>,
+    alpha: PyReadonlyArrayDyn<'_, f64>,
+    beta: PyReadonlyArrayDyn<'_, f64>,
     engine: &str,
     orders: usize,
-    quantities: Vec<String>,
+    names: Vec<String>,
+    mut arrays: Vec<PyReadwriteArrayDyn<'_, f64>>,
     threads: Option<usize>,
-) -> PyResult<Bound<'py, PyDict>> {
+) -> PyResult<()> {
     let (spin, inclination) = (known_spin(spin)?, known_inclination(inclination)?);
     if !(distance > 0.0) {
         return Err(wrong(format!("distance is {distance}: give a positive number of M, or inf")));
@@ -215,61 +174,35 @@ pub fn trace<'py>(
             return Err(wrong(format!("{name} of ray {first} is {}: give finite numbers", values[first])));
         }
     }
-    if let Some(unknown) = quantities.iter().find(|name| Quantity::ALL.iter().all(|q| q.wanted() != **name)) {
-        return Err(wrong(format!(
-            "no quantity is called {unknown:?}: there are fate, steps, error_estimate, lambda, eta, direction, r, phi, t, g"
-        )));
+    let mut places: Places<'_> = NAMES.map(|_| &mut [][..]);
+    for (name, array) in names.iter().zip(&mut arrays) {
+        let at = NAMES.iter().position(|known| known == name);
+        let at = at.ok_or_else(|| wrong(format!("no number is called {name:?}")))?;
+        let place = array.as_slice_mut().map_err(|_| wrong(format!("{name} has to be contiguous")))?;
+        if place.len() != if at < CROSSINGS { count } else { count * orders } {
+            return Err(wrong(format!("{name} has {} places", place.len())));
+        }
+        places[at] = place;
     }
-    let wanted: Vec<Quantity> =
-        Quantity::ALL.into_iter().filter(|q| quantities.iter().any(|name| name == q.wanted())).collect();
-    if count.saturating_mul(orders) > MOST {
-        return Err(wrong(format!(
-            "{count} rays of {orders} orders are more than {MOST}: trace some at a time"
-        )));
-    }
+    let wanted = |name: &str| names.iter().any(|wanted| wanted == name);
     let tracer = work::shortly(|| hole_tracer(engine, spin))?.map_err(wrong)?;
-    let crossings = wanted.iter().any(|quantity| quantity.of_crossings());
-    let query = Query {
-        max_crossings: if crossings { orders } else { 0 },
-        elapsed: wanted.contains(&Quantity::T),
-        ..Query::default()
-    };
+    let crossings = NAMES[CROSSINGS..].iter().any(|name| wanted(name));
+    let query =
+        Query { max_crossings: if crossings { orders } else { 0 }, elapsed: wanted("t"), ..Query::default() };
     let course = Course {
         screen: ImpactScreen::new(Some(spin), inclination, distance).map_err(wrong)?,
         spin,
-        matter: wanted.contains(&Quantity::G).then(|| Circular::kerr(spin, Sense::Prograde)),
+        matter: work::shortly(|| Circular::kerr(spin, Sense::Prograde))?,
         tracer: tracer.as_ref(),
         query,
-        wanted: &wanted,
+        orders,
         impacts,
     };
-    // Zeros that nobody has touched cost nothing; every one is written over.
-    let size = |quantity: &Quantity| if quantity.of_crossings() { count * orders } else { count };
-    let mut arrays: Vec<Vec<f64>> = wanted.iter().map(|quantity| vec![0.0; size(quantity)]).collect();
-    let refused = if orders == 0 && crossings || count == 0 {
-        None
-    } else {
-        let parts = parts(&mut arrays, &wanted, count, orders);
-        follow(py, &course, parts, count, threads)?
-    };
-    if let Some((ray, error)) = refused {
-        return Err(wrong(format!("ray {ray}: {error}")));
+    match follow(py, &course, parts(places, count, orders), threads)? {
+        None => Ok(()),
+        Some((ray, error)) => Err(wrong(format!("ray {ray}: {error}"))),
     }
-    let dict = PyDict::new(py);
-    let of_crossings = PyDict::new(py);
-    for (quantity, array) in wanted.iter().zip(arrays) {
-        if quantity.of_crossings() {
-            of_crossings.set_item(quantity.given(), shaped(py, array, &[count, orders])?)?;
-        } else {
-            dict.set_item(quantity.given(), shaped(py, array, &[count])?)?;
-        }
-    }
-    dict.set_item("crossings", of_crossings)?;
-    Ok(dict)
 }
-
-/// The most numbers of one quantity.
-const MOST: usize = 1 << 31;
 
 /// Rays that are followed without threads, for it takes no time.
 const FEW: usize = 4 * BATCH;
@@ -279,24 +212,21 @@ fn follow(
     py: Python<'_>,
     course: &Course<'_>,
     mut parts: Vec<Part<'_>>,
-    count: usize,
     threads: Option<usize>,
 ) -> PyResult<Option<Refused>> {
-    let one = |(rays, paths): &mut (Vec<Ray>, Vec<Path>), part: &mut Part<'_>| {
-        let many = BATCH.min(count - part.first);
-        course.follow(part, rays, paths, many)
-    };
+    let count: usize = parts.iter().map(|part| part.count).sum();
     if count <= FEW && course.tracer.name() == "closed-form" {
         let mut memory = Default::default();
-        let outcome = work::shortly(|| parts.iter_mut().try_for_each(|part| one(&mut memory, part)))?;
+        let outcome =
+            work::shortly(|| parts.iter_mut().try_for_each(|part| course.follow(part, &mut memory)))?;
         return Ok(outcome.err());
     }
     let outcome = work::run(py, threads, &Told::Nothing, |signals: &Signals| {
         parts.par_iter_mut().try_for_each_init(Default::default, |memory, part| {
-            if signals.cancelled.load(std::sync::atomic::Ordering::Relaxed) {
+            if signals.cancelled.load(Ordering::Relaxed) {
                 return Err(None);
             }
-            one(memory, part).map_err(Some)
+            course.follow(part, memory).map_err(Some)
         })
     })?;
     Ok(outcome.err().flatten())

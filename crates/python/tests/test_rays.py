@@ -68,7 +68,7 @@ def test_only_what_is_asked_for():
     fate = trace(**ARGUMENTS, **rays, quantities="fate", orders=0)
     assert set(fate) == {"fate", "crossings"} and fate["crossings"] == {}
     assert set(np.unique(fate["fate"])) == {"captured", "escaped"}
-    with pytest.raises(ValueError, match="no quantity is called 'colour'"):
+    with pytest.raises(ValueError, match="no quantity is called .colour."):
         trace(**ARGUMENTS, **rays, quantities=("colour",))
 
 
@@ -117,5 +117,5 @@ def test_what_is_wrong_is_told(change, text):
 
 
 def test_a_negative_number_of_orders_is_none():
-    with pytest.raises((OverflowError, ValueError)):
+    with pytest.raises(ValueError, match="orders is -1"):
         trace(**ARGUMENTS, alpha=1, beta=1, orders=-1)

@@ -21,9 +21,10 @@ def trace(
     beta: NDArray[np.float64],
     engine: str,
     orders: int,
-    quantities: list[str],
+    names: list[str],
+    arrays: list[NDArray[np.float64]],
     threads: int | None = None,
-) -> dict[str, Any]: ...
+) -> None: ...
 def fit(
     picture: Picture,
     model: str,

@@ -22,10 +22,14 @@ if TYPE_CHECKING:
 class Fit:
     """What a picture says of a hole and its disk: the posterior of a model's parameters. `fit` gives one."""
 
-    __slots__ = ("_core", "report", "_chain", "_images")
+    __slots__ = ("_inner", "report", "_chain", "_images")
 
     report: dict[str, Any]
     """All of `kerrscope fit --format json`."""
+
+    _inner: _core.Fit
+    _chain: dict[str, NDArray[np.float64]] | None
+    _images: list[NDArray[np.float64]] | None
 
     def __init__(self) -> None:
         raise TypeError("fits come from kerrscope.fit")
@@ -33,7 +37,7 @@ class Fit:
     @classmethod
     def _of(cls, core: _core.Fit) -> Fit:
         fit = cls.__new__(cls)
-        fit._core = core
+        fit._inner = core
         fit.report = json.loads(core.report)
         fit._chain = None
         fit._images = None
@@ -53,18 +57,18 @@ class Fit:
     def chain(self) -> dict[str, NDArray[np.float64]]:
         """Draws of each free parameter, chains × draws."""
         if self._chain is None:
-            draws = self._core.draws()
-            self._chain = {name: draws[:, :, k] for k, (name, _) in enumerate(self._core.free)}
+            draws = self._inner.draws()
+            self._chain = {name: draws[:, :, k] for k, (name, _) in enumerate(self._inner.free)}
         return self._chain
 
     @property
     def log_density(self) -> NDArray[np.float64]:
         """Logarithm of the posterior's density of each draw, chains × draws."""
-        return self._core.logs()
+        return self._inner.logs()
 
     def _image(self, number: int) -> NDArray[np.float64]:
         if self._images is None:
-            self._images = self._core.images()
+            self._images = self._inner.images()
         return self._images[number]
 
     @property
@@ -90,17 +94,20 @@ class Fit:
     @property
     def converged(self) -> bool:
         """Whether chains became one and are worth enough draws."""
-        return self.report["converged"]
+        converged: bool = self.report["converged"]
+        return converged
 
     @property
     def good(self) -> bool:
         """Whether the model describes the picture."""
-        return self.report["good"]
+        good: bool = self.report["good"]
+        return good
 
     @property
     def warnings(self) -> list[str]:
         """What is to be minded, in plain words."""
-        return self.report["warnings"]
+        warnings: list[str] = self.report["warnings"]
+        return warnings
 
     def table(self) -> list[dict[str, Any]]:
         """The free parameters and what follows from them, a dict for each, as `pandas.DataFrame` takes them."""
@@ -108,11 +115,11 @@ class Fit:
 
     def corner_svg(self) -> str:
         """The corner plot as SVG. `kerrscope.plot.corner` draws one with matplotlib."""
-        return self._core.corner()
+        return self._inner.corner()
 
     def save_chains(self, path: str | os.PathLike[str]) -> None:
         """Writes the chains as HDF5, laid out as ArviZ lays out inference data; `OSError` if it cannot."""
-        self._core.write_chains(os.fspath(path))
+        self._inner.write_chains(os.fspath(path))
 
     def to_inferencedata(self) -> Any:
         """The chains as ArviZ takes them: groups `posterior` and `sample_stats` (`lp`).
@@ -125,7 +132,7 @@ class Fit:
             found = arviz.from_dict(**groups)
         else:
             found = arviz.from_dict(groups)
-        for name, unit in self._core.free:
+        for name, unit in self._inner.free:
             found["posterior"][name].attrs["units"] = unit or "1"
         return found
 

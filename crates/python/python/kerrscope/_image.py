@@ -27,7 +27,15 @@ class Image:
     gives one of one's own.
     """
 
-    __slots__ = ("_core", "_light", "_layers", "_units", "_titles", "_radiance")
+    __slots__ = ("_inner", "_light", "_layers", "_units", "_titles", "_radiance")
+
+    _inner: _core.Film
+    _light: NDArray[np.float32] | None
+    _layers: dict[str, NDArray[np.float32]] | None
+    _units: dict[str, str]
+    _titles: dict[str, str]
+    # Nothing before it was asked for; then one or none.
+    _radiance: list[tuple[str, str, str, NDArray[np.float64]]] | None
 
     def __init__(self) -> None:
         raise TypeError("images come from Scene.render and kerrscope.open")
@@ -35,7 +43,7 @@ class Image:
     @classmethod
     def _of(cls, core: _core.Film) -> Image:
         image = cls.__new__(cls)
-        image._core = core
+        image._inner = core
         image._light = None
         image._layers = None
         image._units = {}
@@ -47,7 +55,7 @@ class Image:
     def light(self) -> NDArray[np.float32]:
         """Linear light, height × width × 3."""
         if self._light is None:
-            self._light = _fixed(self._core.light())
+            self._light = _fixed(self._inner.light())
         return self._light
 
     def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
@@ -61,7 +69,7 @@ class Image:
     @property
     def shape(self) -> tuple[int, int, int]:
         """Height and width in pixels, and 3."""
-        height, width = self._core.size
+        height, width = self._inner.size
         return height, width, 3
 
     def __len__(self) -> int:
@@ -76,8 +84,8 @@ class Image:
         """
         if self._layers is None:
             orders: dict[str, list[Any]] = {}
-            self._layers = {}
-            for name, title, unit, values in self._core.layers():
+            layers: dict[str, NDArray[np.float32]] = {}
+            for name, title, unit, values in self._inner.layers():
                 found = _OF_ORDER.match(name)
                 word = found[2] if found else {"Z": "depth"}.get(name, name)
                 self._units[word] = unit
@@ -85,8 +93,9 @@ class Image:
                 if found:
                     orders.setdefault(word, []).append(values)
                 else:
-                    self._layers[word] = _fixed(values)
-            self._layers.update((word, _fixed(np.stack(values))) for word, values in orders.items())
+                    layers[word] = _fixed(values)
+            layers.update((word, _fixed(np.stack(values))) for word, values in orders.items())
+            self._layers = layers
         return self._layers
 
     @property
@@ -98,9 +107,9 @@ class Image:
 
     def _intensity(self) -> tuple[str, str, str, NDArray[np.float64]] | None:
         if self._radiance is None:
-            found = self._core.intensity()
-            self._radiance = (None,) if found is None else (*found[:3], _fixed(found[3]))
-        return None if len(self._radiance) == 1 else self._radiance
+            found = self._inner.intensity()
+            self._radiance = [] if found is None else [(*found[:3], _fixed(found[3]))]
+        return self._radiance[0] if self._radiance else None
 
     @property
     def radiance(self) -> NDArray[np.float64] | None:
@@ -115,14 +124,14 @@ class Image:
     @property
     def scene(self) -> Scene:
         """The scene that it shows."""
-        return Scene._of(self._core.scene)
+        return Scene._of(self._inner.scene)
 
     @property
     def provenance(self) -> dict[str, Any]:
         """How it was made: `version`, `seed`, `instruction_level`, and `record`, the text that files carry, itself a scene."""
-        about = self._core.about()
+        about = self._inner.about()
         names = ("version", "seed", "instruction_level")
-        return {**{name: about[name] for name in names}, "record": self._core.record}
+        return {**{name: about[name] for name in names}, "record": self._inner.record}
 
     @property
     def about(self) -> dict[str, Any]:
@@ -132,7 +141,7 @@ class Image:
         pixel in M and µas, `total_flux_jy`, and `centroid` and `size` (full widths at half maximum, right and up) in `length_unit`.
         None is what is not known.
         """
-        return self._core.about()
+        return self._inner.about()
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes .png (as a screen shows it), .exr, .fits or .h5 (linear light, intensity and layers), whole or not at all.
@@ -144,7 +153,7 @@ class Image:
         ValueError
             If the name ends otherwise.
         """
-        self._core.save(os.fspath(path))
+        self._inner.save(os.fspath(path))
 
     def show(self) -> None:
         """Shows it: in the notebook, or in whatever this machine shows PNG files with."""
@@ -153,7 +162,7 @@ class Image:
             from IPython.display import display  # type: ignore[import-not-found,unused-ignore]
 
             if getattr(get_ipython(), "kernel", None) is not None:
-                display(self)
+                display(self)  # type: ignore[no-untyped-call,unused-ignore]
                 return
         except ImportError:
             pass
@@ -166,7 +175,7 @@ class Image:
         webbrowser.open(pathlib.Path(file.name).as_uri())
 
     def _repr_png_(self) -> bytes:
-        return self._core.png()
+        return self._inner.png()
 
     def to_xarray(self) -> xarray.Dataset:
         """All of it as a labelled dataset.
@@ -182,7 +191,7 @@ class Image:
             Without xarray: `pip install kerrscope[xarray]`.
         """
         xr = need("xarray", "xarray", "to_xarray")
-        about = self._core.about()
+        about = self._inner.about()
         height, width, _ = self.shape
         pixel, unit = (about["pixel_m"], "M") if about["pixel_m"] else (1.0, "pixel")
         right, up = np.arange(width) + 0.5 - width / 2, height / 2 - np.arange(height) - 0.5
@@ -209,8 +218,9 @@ class Image:
             if values.ndim == 3:
                 coordinates["order"] = ("order", np.arange(len(values)), {"long_name": "image order"})
         attributes = {name: value for name, value in about.items() if value is not None}
-        attributes["record"] = self._core.record
-        return xr.Dataset(variables, coordinates, attributes)
+        attributes["record"] = self._inner.record
+        dataset: xarray.Dataset = xr.Dataset(variables, coordinates, attributes)
+        return dataset
 
     def __repr__(self) -> str:
         height, width, _ = self.shape

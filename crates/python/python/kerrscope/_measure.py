@@ -22,7 +22,7 @@ def picture(of: Pictured, pixel_uas: float | None, pixel_m: float | None) -> _co
     if isinstance(of, (Image, str, os.PathLike)):
         if pixel_uas is not None or pixel_m is not None:
             raise ValueError("files and images say how large their pixels are: leave pixel_uas and pixel_m away")
-        return _core.Picture.of_film(of._core) if isinstance(of, Image) else _core.Picture.open(os.fspath(of))
+        return _core.Picture.of_film(of._inner) if isinstance(of, Image) else _core.Picture.open(os.fspath(of))
     values = np.asarray(of, float)
     if values.ndim == 3 and values.shape[2] == 3:
         values = values.mean(axis=2)
@@ -57,4 +57,5 @@ def measure(image: Pictured, *, pixel_uas: float | None = None, pixel_m: float |
     ValueError
         If it is no picture, the same all over, or has pixels that are no numbers.
     """
-    return json.loads(_core.measure(picture(image, pixel_uas, pixel_m)))
+    features: dict[str, Any] = json.loads(_core.measure(picture(image, pixel_uas, pixel_m)))
+    return features

@@ -41,8 +41,9 @@ class ImageModel:
     Means over pixels are exact to 1e-3 of the brightest, edges included; derivatives are those of the same function.
     """
 
-    __slots__ = ("_core", "name", "size", "parameters")
+    __slots__ = ("_inner", "name", "size", "parameters")
 
+    _inner: _core.Model
     name: str
     """The model's name."""
     size: tuple[int, int]
@@ -60,12 +61,12 @@ class ImageModel:
         spacetime: str | None = None,
     ) -> None:
         height, width = (size, size) if isinstance(size, int) else size
-        self._core = _core.Model(name, width, height, projection, orders, spacetime)
+        self._inner = _core.Model(name, width, height, projection, orders, spacetime)
         self.name = name
         self.size = (height, width)
         parameters = (
             Parameter(word, unit, meaning, (low, high), _DEFAULTS.get(word, usual))
-            for word, unit, meaning, (low, high), usual in self._core.parameters()
+            for word, unit, meaning, (low, high), usual in self._inner.parameters()
         )
         self.parameters = {parameter.name: parameter for parameter in parameters}
 
@@ -103,7 +104,7 @@ class ImageModel:
             raise TypeError(f"{self.name} needs {', '.join(missing)} too")
         numbers = [float(value) for value in everything.values() if value is not None]
         image: NDArray[np.float64]
-        image, slopes = self._core.predict(numbers, derivatives, threads)
+        image, slopes = self._inner.predict(numbers, derivatives, threads)
         return image if slopes is None else (image, dict(zip(self.parameters, slopes)))
 
     def __repr__(self) -> str:

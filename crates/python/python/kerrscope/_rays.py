@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,9 +10,19 @@ import numpy as np
 from . import _core
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 _FATES = np.array(["escaped", "captured", "hit", "step-limit"])
+# Numbers of a ray by what asks for them, and those of each of its crossings.
+_OF_RAYS = {
+    "fate": ("fate",),
+    "steps": ("steps",),
+    "error_estimate": ("error_estimate",),
+    "lambda": ("lambda",),
+    "eta": ("eta",),
+    "direction": ("theta", "sky_phi"),
+}
+_OF_CROSSINGS = ("r", "phi", "t", "g")
 _ALL = ("fate", "steps", "error_estimate", "lambda", "eta", "direction", "r", "phi", "t", "g")
 
 
@@ -77,53 +87,64 @@ def trace(
     ['escaped', 'captured']
     """
     wanted = [quantities] if isinstance(quantities, str) else list(quantities)
+    unknown = [name for name in wanted if name not in _ALL]
+    if unknown:
+        raise ValueError(f"no quantity is called {unknown[0]!r}: there are {', '.join(_ALL)}")
+    if orders < 0:
+        raise ValueError(f"orders is {orders}: give 0 or more")
+    names = ("spin", "inclination", "distance", "alpha", "beta")
     given = [np.asarray(values, float) for values in (spin, inclination, distance, alpha, beta)]
     try:
         shape = np.broadcast_shapes(*(values.shape for values in given))
     except ValueError:
-        names = ("spin", "inclination", "distance", "alpha", "beta")
         shapes = ", ".join(f"{name} {values.shape}" for name, values in zip(names, given))
         raise ValueError(f"these shapes do not go together: {shapes}") from None
     hole, impact = given[:3], [np.ascontiguousarray(np.broadcast_to(values, shape)).ravel() for values in given[3:]]
+    of_rays = [name for asked, several in _OF_RAYS.items() if asked in wanted for name in several]
+    of_crossings = [name for name in _OF_CROSSINGS if name in wanted]
 
-    def follow(hole: Iterable[Any], impact: list[np.ndarray]) -> dict[str, Any]:
-        a, i, r = (float(value) for value in hole)
-        return _core.trace(a, i, r, *impact, engine, orders, wanted, threads)
+    def follow(hole: Iterable[float], impact: list[NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+        a, i, r = hole
+        count = len(impact[0])
+        # numpy's memory is in large pages, which cost a tenth of small ones.
+        found = {name: np.empty(count) for name in of_rays}
+        found.update((name, np.empty((count, orders))) for name in of_crossings)
+        _core.trace(a, i, r, impact[0], impact[1], engine, orders, list(found), list(found.values()), threads)
+        return found
 
     if all(values.size == 1 for values in hole):
         found = follow((values.item() for values in hole), impact)
     else:
-        found = _by_hole(np.stack([np.broadcast_to(values, shape).ravel() for values in hole], axis=1), impact, follow)
-    crossings = found.pop("crossings")
-    if "fate" in found:
-        found["fate"] = _FATES[found["fate"].astype(np.intp)]
-    if "steps" in found:
-        found["steps"] = found["steps"].astype(np.int64)
-    result: dict[str, Any] = {name: values.reshape(shape) for name, values in found.items()}
-    result["crossings"] = {name: values.reshape(*shape, orders) for name, values in crossings.items()}
+        holes = np.stack([np.broadcast_to(values, shape).ravel() for values in hole], axis=1)
+        found = _by_hole(holes, impact, follow)
+    result: dict[str, Any] = {name: found[name].reshape(shape) for name in of_rays}
+    if "fate" in result:
+        result["fate"] = _FATES[result["fate"].astype(np.intp)]
+    if "steps" in result:
+        result["steps"] = result["steps"].astype(np.int64)
+    if "sky_phi" in result:
+        result["phi"] = result.pop("sky_phi")
+    result["crossings"] = {name: found[name].reshape(*shape, orders) for name in of_crossings}
     return result
 
 
-def _by_hole(holes: np.ndarray, impact: list[np.ndarray], follow: Any) -> dict[str, Any]:
+def _by_hole(
+    holes: NDArray[np.float64],
+    impact: list[NDArray[np.float64]],
+    follow: Callable[[Iterable[float], list[NDArray[np.float64]]], dict[str, NDArray[np.float64]]],
+) -> dict[str, NDArray[np.float64]]:
     """Rays of several holes or observers: those of each together."""
     kinds, which = np.unique(holes, axis=0, return_inverse=True)
     which = which.ravel()
     order = np.argsort(which, kind="stable")
     ends = np.searchsorted(which[order], np.arange(len(kinds) + 1))
-    whole: dict[str, Any] = {"crossings": {}}
-
-    def put(into: dict[str, Any], name: str, rays: np.ndarray, values: np.ndarray) -> None:
-        if name not in into:
-            into[name] = np.empty((len(holes), *values.shape[1:]))
-        into[name][rays] = values
-
     if not len(kinds):
         return follow((0.0, 0.0, np.inf), impact)
+    whole: dict[str, NDArray[np.float64]] = {}
     for hole, start, end in zip(kinds, ends, ends[1:]):
         rays = order[start:end]
-        found = follow(hole, [values[rays] for values in impact])
-        for name, values in found.pop("crossings").items():
-            put(whole["crossings"], name, rays, values)
-        for name, values in found.items():
-            put(whole, name, rays, values)
+        for name, values in follow((float(value) for value in hole), [values[rays] for values in impact]).items():
+            if name not in whole:
+                whole[name] = np.empty((len(holes), *values.shape[1:]))
+            whole[name][rays] = values
     return whole

@@ -36,15 +36,17 @@ class Scene:
         With everything that is wrong: where, what, and how to mend it.
     """
 
-    __slots__ = ("_core",)
+    __slots__ = ("_inner",)
+
+    _inner: _core.Scene
 
     def __init__(self, text: str = "", folder: str | os.PathLike[str] = "") -> None:
-        self._core = _core.Scene(text, os.fspath(folder))
+        self._inner = _core.Scene(text, os.fspath(folder))
 
     @classmethod
     def _of(cls, core: _core.Scene) -> Scene:
         scene = cls.__new__(cls)
-        scene._core = core
+        scene._inner = core
         return scene
 
     @classmethod
@@ -86,19 +88,20 @@ class Scene:
         0.5
         """
         typed = [(name, None if of is None else _toml.value(of, name)) for name, of in changes.items()]
-        return type(self)._of(self._core.changed(typed))
+        return type(self)._of(self._inner.changed(typed))
 
     def to_toml(self) -> str:
         """The whole scene in TOML, every default written out."""
-        return self._core.to_toml()
+        return self._inner.to_toml()
 
     def to_dict(self) -> dict[str, Any]:
         """The whole scene as nested dicts; infinite numbers are the text "inf"."""
-        return json.loads(self._core.to_json())
+        scene: dict[str, Any] = json.loads(self._inner.to_json())
+        return scene
 
     def __getitem__(self, name: str) -> Any:
         """The value of a key, by a name as in `replace`; `KeyError` where the scene has none."""
-        path = self._core.key(name)
+        path = self._inner.key(name)
         found: Any = self.to_dict()
         for part in path.split("."):
             if not isinstance(found, dict) or part not in found:
@@ -109,7 +112,7 @@ class Scene:
     @property
     def size(self) -> tuple[int, int]:
         """Width and height of its picture in pixels."""
-        width, height = self._core.size
+        width, height = self._inner.size
         return width, height
 
     def render(
@@ -144,7 +147,7 @@ class Scene:
         """
         from ._image import Image
 
-        return Image._of(self._core.render(threads, progress, level))
+        return Image._of(self._inner.render(threads, progress, level))
 
     def preview(self) -> Image:
         """A picture as notebooks show it: of 130,000 pixels at most, 4 samples each, without data layers."""
@@ -153,7 +156,7 @@ class Scene:
         sizes = {
             "render.width": max(1, int(width * shrink)),
             "render.height": max(1, int(height * shrink)),
-            "render.samples": min(_PREVIEW_SAMPLES, self._core.samples),
+            "render.samples": min(_PREVIEW_SAMPLES, self._inner.samples),
             "render.layers": None,
         }
         return self.replace(**sizes).render()
@@ -162,13 +165,13 @@ class Scene:
         return self.preview()._repr_png_()
 
     def __eq__(self, other: object) -> bool:
-        return self._core.same(other._core) if isinstance(other, Scene) else NotImplemented
+        return self._inner.same(other._inner) if isinstance(other, Scene) else NotImplemented
 
     def __hash__(self) -> int:
         return hash(self.to_toml())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), *self._core.state())
+        return _again, (type(self), *self._inner.state())
 
     def __repr__(self) -> str:
         scene = self.to_dict()

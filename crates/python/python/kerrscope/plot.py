@@ -14,6 +14,7 @@ from ._image import Image
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 __all__ = ["corner", "critical_curve", "image"]
 
@@ -96,12 +97,12 @@ def image(
     return ax
 
 
-def _shown(of: Image) -> np.ndarray:
+def _shown(of: Image) -> NDArray[np.float64]:
     """Light through the scene's exposure and tone curve: the pixels of its PNG."""
     import io
 
-    pyplot = _pyplot()
-    return pyplot.imread(io.BytesIO(of._repr_png_()))
+    shown: NDArray[np.float64] = _pyplot().imread(io.BytesIO(of._repr_png_()))
+    return shown
 
 
 def _bar(ax: Axes, extent: tuple[float, float, float, float], unit: str) -> None:
@@ -162,14 +163,14 @@ def corner(fit: Fit, names: list[str] | None = None, *, bins: int = 30, **more: 
 
     Contours hold 39 % and 86 % of the draws, those of a Gaussian within one and two standard deviations. `more` is for `subplots`.
     """
-    pyplot = _pyplot()
     chain = fit.chain
     names = list(chain) if names is None else names
     unknown = [name for name in names if name not in chain]
     if unknown:
         raise ValueError(f"{', '.join(unknown)}: free parameters are {', '.join(chain)}")
     count = len(names)
-    figure, axes = pyplot.subplots(count, count, squeeze=False, **{"figsize": (2 * count, 2 * count), **more})
+    figure: Figure
+    figure, axes = _pyplot().subplots(count, count, squeeze=False, **{"figsize": (2 * count, 2 * count), **more})
     draws = {name: _unwrapped(name, chain[name].ravel()) for name in names}
     for row, below in enumerate(names):
         for column, beside in enumerate(names):
@@ -193,15 +194,16 @@ def corner(fit: Fit, names: list[str] | None = None, *, bins: int = 30, **more: 
     return figure
 
 
-def _unwrapped(name: str, values: np.ndarray) -> np.ndarray:
+def _unwrapped(name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Angles around their mean direction."""
     if name != "position_angle":
         return values
     middle = np.degrees(np.angle(np.exp(1j * np.radians(values)).mean()))
-    return middle + (values - middle + 180.0) % 360.0 - 180.0
+    unwrapped: NDArray[np.float64] = middle + (values - middle + 180.0) % 360.0 - 180.0
+    return unwrapped
 
 
-def _pair(ax: Axes, x: np.ndarray, y: np.ndarray, bins: int) -> None:
+def _pair(ax: Axes, x: NDArray[np.float64], y: NDArray[np.float64], bins: int) -> None:
     counts, right, up = np.histogram2d(x, y, bins=bins)
     if np.ptp(x) == 0 or np.ptp(y) == 0:
         ax.plot(x, y, ".", markersize=1)
