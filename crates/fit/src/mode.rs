@@ -6,7 +6,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::likelihood::{Ask, Evaluation, Posterior};
-use crate::model::Source;
+use crate::model::{Cancelled, Source};
 
 /// A maximum of the posterior, and its surroundings as a Gaussian.
 #[derive(Clone, Debug)]
@@ -83,7 +83,7 @@ pub fn climb<S: Source>(
     posterior: &Posterior<'_, S>,
     start: &[f64],
     most: usize,
-    cancelled: &(dyn Fn() -> bool + Sync),
+    cancelled: Cancelled<'_>,
 ) -> Option<Mode> {
     let mut place = start.to_vec();
     let mut here = posterior.at(&place, Ask::Curvature)?;

@@ -58,10 +58,13 @@ pub fn modes(
     let near = Posterior { model: &sketch, data: &small, noise: &rough, coordinates: &coordinates };
     let flux: f64 = image.values.iter().sum();
     let mut starts: Vec<Vec<f64>> = options.starts.clone();
-    for own in posterior.model.source().starts(&image.values, image.size) {
+    for own in posterior.model.source().starts(&image.values, image.size, options.cancelled) {
         let mut start = own;
         start.extend([2.0, flux, 0.0]);
         starts.push(start);
+    }
+    if (options.cancelled)() {
+        return Err(FitError::Cancelled);
     }
     for start in &mut starts {
         for (value, freedom) in start.iter_mut().zip(&options.freedoms) {

@@ -147,7 +147,7 @@ impl Ready {
             seed: self.task.seed,
             rounds: self.task.rounds,
             aim: AIM,
-            starts: silhouettes.as_ref().map_or_else(Vec::new, |s| s.starts(&self.freedoms)),
+            starts: silhouettes.as_ref().map_or_else(Vec::new, |s| s.starts(&self.freedoms, watch.cancelled)),
             progress: watch.progress,
             cancelled: watch.cancelled,
             keeper: watch.keeper,
