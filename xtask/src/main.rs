@@ -1,6 +1,7 @@
 //! Chores of the repository.
 //!
 //!     cargo xtask test             every test
+//!     cargo xtask python           the Python package: its wheel built, and tested
 //!     cargo xtask check            formatting, lints, documentation
 //!     cargo xtask pictures [NAME...]
 //!                                  the pictures of README.md and scenes/, all or those of these names
@@ -11,10 +12,12 @@
 //!     cargo xtask earth-data FOLDER
 //!                                  data of the Earth again; see there too
 
+mod python;
+
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str = "usage: cargo xtask test | check | pictures [NAME...] | campaign NAME | fuzz [TARGET] \
+const USAGE: &str = "usage: cargo xtask test | python | check | pictures [NAME...] | campaign NAME | fuzz [TARGET] \
      | sky-data FOLDER | earth-data FOLDER";
 
 fn main() -> ExitCode {
@@ -22,6 +25,7 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words[..] {
         ["test"] => test(),
+        ["python"] => python::environment().and_then(|python| python::test(&python)),
         ["check"] => check(),
         ["pictures" | "campaign" | "fuzz" | "sky-data" | "earth-data", ..] => chores(&words),
         _ => Err(USAGE.to_owned()),
@@ -46,41 +50,17 @@ fn chores(words: &[&str]) -> Result<(), String> {
     cargo(&[&cargo_run[..], words].concat(), &[])
 }
 
-/// Unit, integration and documentation tests. Where there is a Python, those that compare with other
-/// programs run too; otherwise they say that they are skipped.
+/// Unit, integration and documentation tests. Where there is a Python, the package for it is tested, and so is what compares with other
+/// programs; otherwise it is said that these are skipped.
 fn test() -> Result<(), String> {
-    let python = python();
-    let environment: Vec<_> = python.iter().map(|path| ("KERRSCOPE_TEST_PYTHON", path.as_str())).collect();
-    cargo(&["test", "--workspace", "--locked"], &environment)
-}
-
-/// A Python environment under `target/` with what the tests need.
-fn python() -> Option<String> {
-    let folder = root().join("target/python");
-    let python = folder.join(if cfg!(windows) { "Scripts/python.exe" } else { "bin/python" });
-    let wanted = root().join("crates/kerrscope/tests/requirements.txt");
-    let stamp = folder.join("requirements.txt");
-    let same = std::fs::read(&stamp).is_ok_and(|made| std::fs::read(&wanted).is_ok_and(|now| made == now));
-    if !same {
-        let run = |program: &Path, arguments: &[&std::ffi::OsStr]| {
-            Command::new(program).args(arguments).status().is_ok_and(|status| status.success())
-        };
-        let made = run(Path::new("python3"), &["-m".as_ref(), "venv".as_ref(), folder.as_os_str()])
-            && run(
-                &python,
-                &["-m", "pip", "install", "-q", "-r"]
-                    .map(AsRef::as_ref)
-                    .into_iter()
-                    .chain([wanted.as_os_str()])
-                    .collect::<Vec<_>>(),
-            )
-            && std::fs::copy(&wanted, &stamp).is_ok();
-        if !made {
-            eprintln!("xtask: no Python environment can be made; tests that need one are skipped");
-            return None;
-        }
+    let python = python::environment();
+    if let Err(fault) = &python {
+        eprintln!("xtask: {fault}; tests that need Python are skipped");
     }
-    Some(python.to_string_lossy().into_owned())
+    let path = python.as_ref().map(|path| path.to_string_lossy().into_owned());
+    let environment: Vec<_> = path.iter().map(|path| ("KERRSCOPE_TEST_PYTHON", path.as_str())).collect();
+    cargo(&["test", "--workspace", "--locked"], &environment)?;
+    python.map_or(Ok(()), |python| python::test(&python))
 }
 
 fn check() -> Result<(), String> {
@@ -92,12 +72,18 @@ fn check() -> Result<(), String> {
 
 /// Runs cargo in the root folder.
 fn cargo(arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
-    eprintln!("$ cargo {}", arguments.join(" "));
-    let status = Command::new(env!("CARGO"))
+    run(Path::new(env!("CARGO")), arguments, environment)
+}
+
+/// Runs a program in the root folder.
+fn run(program: &Path, arguments: &[&str], environment: &[(&str, &str)]) -> Result<(), String> {
+    let name = program.file_stem().unwrap_or_default().to_string_lossy();
+    eprintln!("$ {name} {}", arguments.join(" "));
+    let status = Command::new(program)
         .args(arguments)
         .envs(environment.iter().copied())
         .current_dir(root())
         .status()
-        .map_err(|e| format!("cargo: {e}"))?;
-    if status.success() { Ok(()) } else { Err(format!("cargo {} failed", arguments.join(" "))) }
+        .map_err(|e| format!("{name}: {e}"))?;
+    if status.success() { Ok(()) } else { Err(format!("{name} {} failed", arguments.join(" "))) }
 }

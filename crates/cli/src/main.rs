@@ -20,7 +20,6 @@ mod source;
 mod spacetime;
 mod spectrum;
 mod survey;
-mod theory;
 mod thesis;
 mod trace;
 mod validate;

@@ -1,9 +1,9 @@
 //! Where a scene comes from: a scene file, or a picture that was made of one.
 
 use crate::report::Failure;
-use kerrscope::output::Format;
+use kerrscope::output::{Format, draft};
 use kerrscope::scene::Scene;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// A scene named on the command line, and what is to be changed in it.
 #[derive(clap::Args, Debug, Default)]
@@ -21,9 +21,12 @@ impl Source {
     pub fn load(&self, overrides: impl IntoIterator<Item = String>) -> Result<Scene, Failure> {
         let overrides: Vec<String> = self.set.iter().cloned().chain(overrides).collect();
         let Some(path) = &self.scene else { return Ok(Scene::load(None, &overrides)?) };
-        let Some(format) = Format::of(path) else { return Ok(Scene::load(Some(path), &overrides)?) };
-        let made = format.read_provenance(path).map_err(|e| Failure::Input(e.to_string()))?;
-        let folder = path.parent().unwrap_or(Path::new(""));
-        Ok(Scene::from_record(&path.display().to_string(), &made.scene_toml, &overrides, folder)?)
+        if Format::of(path).is_none() {
+            // What is wrong with overrides is told even if the file cannot be read.
+            return Ok(Scene::load(Some(path), &overrides)?);
+        }
+        let mut draft = draft(path).map_err(|e| Failure::Input(e.to_string()))?;
+        draft.overrides = overrides;
+        Ok(draft.scene()?)
     }
 }

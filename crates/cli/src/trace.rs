@@ -7,23 +7,17 @@ use crate::{parse_distance, parse_finite, parse_inclination, parse_spin, print, 
 use clap::ValueEnum;
 use kerrscope::camera::Camera;
 use kerrscope::objects::World;
-use kerrscope::render::{Sampler, obstacle_tracer, tracer, world};
+use kerrscope::render::{Sampler, hole_tracer, obstacle_tracer, tracer, world};
 use kerrscope::scene::Scene;
 use kerrscope::spacetime::Level;
-use kerrscope::spacetime::closed::{ClosedForm, NODES};
 use kerrscope::spacetime::emitter::{Circular, Sense};
-use kerrscope::spacetime::geodesic::{
-    Fate, Integrator, ObstacleTracer, Path, Query, Ray, Scheme, Side, Tracer,
-};
+use kerrscope::spacetime::geodesic::{ObstacleTracer, Path, Query, Ray, Side, Tracer};
 use kerrscope::spacetime::kerr::horizons;
-use kerrscope::spacetime::metric::{Kerr, LineElement};
+use kerrscope::spacetime::metric::LineElement;
 use kerrscope::spacetime::observer::impact_ray;
 use serde::Serialize;
 use std::fmt::Write;
 use std::sync::Arc;
-
-/// Steps after which the ray of a hole without a scene is given up.
-const MAX_STEPS: usize = 100_000;
 
 /// The ray is that of a pixel of a scene, or that of impact parameters seen by a static
 /// observer. Lengths and times in M, angles in radians, in Boyer-Lindquist coordinates.
@@ -237,17 +231,7 @@ fn hole(arguments: &Arguments, spin: f64, inclination: f64) -> Result<Shot, Fail
     let distance = arguments.distance.unwrap_or(1000.0);
     let ray = impact_ray(Some(spin), inclination.to_radians(), distance, [alpha, beta])
         .map_err(|e| Failure::Input(e.to_string()))?;
-    let tracer: Box<dyn Tracer> = match arguments.engine.as_deref() {
-        None | Some("auto" | "closed-form") => Box::new(ClosedForm::new(spin, NODES, MAX_STEPS)),
-        Some("integrator") => {
-            Integrator::new(Kerr::new(spin), Scheme::Dop853 { tolerance: 1e-12 }, MAX_STEPS).boxed()
-        }
-        Some(engine) => {
-            return Err(Failure::Input(format!(
-                "no engine is called {engine:?}: give auto, closed-form or integrator"
-            )));
-        }
-    };
+    let tracer = hole_tracer(arguments.engine.as_deref().unwrap_or("auto"), spin).map_err(Failure::Input)?;
     Ok(Shot { spin: Some(spin), element: None, ray, follower: Follower::Alone(tracer) })
 }
 
@@ -303,7 +287,7 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
     });
     Output {
         engine: shot.follower.name(),
-        fate: fate(path.fate),
+        fate: path.fate.name(),
         conserved: Conserved {
             lambda: finite(conserved.lambda),
             // Of any other metric no fourth constant of the motion is known.
@@ -315,15 +299,6 @@ fn output(shot: &Shot, path: &Path, with_points: bool) -> Output {
         steps: path.steps,
         error_estimate: finite(path.error_estimate),
         path: with_points.then(|| path.points.clone()),
-    }
-}
-
-fn fate(fate: Fate) -> &'static str {
-    match fate {
-        Fate::Escaped => "escaped",
-        Fate::Captured => "captured",
-        Fate::Hit => "hit",
-        Fate::StepLimit => "step-limit",
     }
 }
 
@@ -378,8 +353,8 @@ fn csv(path: &Path) -> String {
 fn title(shot: &Shot, path: &Path) -> String {
     let conserved = shot.ray.conserved(shot.spin.unwrap_or(0.0));
     if shot.element.is_some() {
-        return format!("λ = {:.4} M: {}", conserved.lambda, fate(path.fate));
+        return format!("λ = {:.4} M: {}", conserved.lambda, path.fate.name());
     }
     let hole = shot.spin.map_or_else(|| "flat space".to_owned(), |a| format!("a = {a}"));
-    format!("{hole}, λ = {:.4} M, η = {:.4} M²: {}", conserved.lambda, conserved.eta, fate(path.fate))
+    format!("{hole}, λ = {:.4} M, η = {:.4} M²: {}", conserved.lambda, conserved.eta, path.fate.name())
 }

@@ -188,10 +188,13 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let posterior =
         Posterior { model: &model, data: &image.values, noise: assumed, coordinates: &coordinates };
     if revised.is_some() {
-        let again = |mode: &Mode| climb(&posterior, &mode.place[..posterior.count()], 40);
+        let again = |mode: &Mode| climb(&posterior, &mode.place[..posterior.count()], 40, options.cancelled);
         modes = modes.iter().filter_map(again).collect();
         evaluations += modes.iter().map(|mode| mode.evaluations).sum::<usize>();
         modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
+        if (options.cancelled)() {
+            return Err(FitError::Cancelled);
+        }
         if modes.is_empty() {
             return Err(FitError::NoStart);
         }

@@ -16,6 +16,7 @@ pub mod nuts;
 mod observed;
 pub mod output;
 mod prior;
+pub mod question;
 mod reduce;
 pub mod request;
 mod ring;
@@ -23,6 +24,7 @@ mod search;
 mod shear;
 pub mod silhouette;
 pub mod summary;
+pub mod task;
 pub mod traced;
 mod verdict;
 

@@ -6,7 +6,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::likelihood::{Ask, Evaluation, Posterior};
-use crate::model::Source;
+use crate::model::{Cancelled, Source};
 use crate::shear::Shear;
 
 /// A maximum of the posterior, and its surroundings as a Gaussian.
@@ -82,13 +82,21 @@ pub fn factor(mut matrix: DMatrix<f64>) -> Cholesky<f64, Dyn> {
 /// What a step has to promise in ln p to be taken: a tenth of a standard deviation.
 const ENOUGH: f64 = 5e-3;
 
-/// Climbs from a start; none if the model has no picture there. `most` bounds the evaluations.
-pub fn climb<S: Source>(posterior: &Posterior<'_, S>, start: &[f64], most: usize) -> Option<Mode> {
+/// Climbs from a start; none if the model has no picture there, or it was cancelled. `most` bounds the evaluations.
+pub fn climb<S: Source>(
+    posterior: &Posterior<'_, S>,
+    start: &[f64],
+    most: usize,
+    cancelled: Cancelled<'_>,
+) -> Option<Mode> {
     let mut place = start.to_vec();
     let mut here = posterior.at(&place, Ask::Curvature)?;
     let mut evaluations = 1;
     let (mut damping, mut converged) = (1e-3, false);
     while evaluations < most {
+        if cancelled() {
+            return None;
+        }
         let mut matrix = here.curvature.clone();
         for k in 0..matrix.nrows() {
             matrix[(k, k)] *= 1.0 + damping;

@@ -44,8 +44,11 @@ pub struct Prediction {
 #[error("no picture can be made of {0}")]
 pub struct Unpredictable(pub String);
 
+/// Whether to stop: what is found from then on counts nothing.
+pub type Cancelled<'a> = &'a (dyn Fn() -> bool + Sync);
+
 /// Light, as a function of parameters among which are those of where the picture is.
-pub trait Source: Sync {
+pub trait Source: Send + Sync {
     /// Its parameters. Those called `center_x` and `center_y` are in pixels from the middle of the picture, to the right and up.
     fn parameters(&self) -> Vec<Parameter>;
 
@@ -56,7 +59,7 @@ pub trait Source: Sync {
     fn draw(&self, values: &[f64], size: [usize; 2], derivatives: bool) -> Result<Prediction, Unpredictable>;
 
     /// Parameters of which one may be near those of a picture, the likeliest first.
-    fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>>;
+    fn starts(&self, values: &[f64], size: [usize; 2], cancelled: Cancelled<'_>) -> Vec<Vec<f64>>;
 
     /// Whether its picture is compared as it is, without blur, flux and background.
     fn finished(&self) -> bool {
@@ -73,8 +76,8 @@ impl<S: Source + ?Sized> Source for Box<S> {
         (**self).draw(values, size, derivatives)
     }
 
-    fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>> {
-        (**self).starts(values, size)
+    fn starts(&self, values: &[f64], size: [usize; 2], cancelled: Cancelled<'_>) -> Vec<Vec<f64>> {
+        (**self).starts(values, size, cancelled)
     }
 
     fn finished(&self) -> bool {

@@ -10,7 +10,7 @@
 //! I₀ and I₁ are modified Bessel functions.
 
 use crate::blur::FWHM;
-use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
+use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
 
 /// The model; it has no settings.
@@ -144,7 +144,7 @@ impl Source for Ring {
         Ok(prediction)
     }
 
-    fn starts(&self, values: &[f64], [width, height]: [usize; 2]) -> Vec<Vec<f64>> {
+    fn starts(&self, values: &[f64], [width, height]: [usize; 2], _: Cancelled<'_>) -> Vec<Vec<f64>> {
         let floor = values.iter().copied().fold(f64::INFINITY, f64::min).max(0.0);
         let (mut sum, mut place) = (0.0, [0.0; 2]);
         let at = |pixel: usize| {

@@ -58,10 +58,13 @@ pub fn modes(
     let near = Posterior { model: &sketch, data: &small, noise: &rough, coordinates: &coordinates };
     let flux: f64 = image.values.iter().sum();
     let mut starts: Vec<Vec<f64>> = options.starts.clone();
-    for own in posterior.model.source().starts(&image.values, image.size) {
+    for own in posterior.model.source().starts(&image.values, image.size, options.cancelled) {
         let mut start = own;
         start.extend([2.0, flux, 0.0]);
         starts.push(start);
+    }
+    if (options.cancelled)() {
+        return Err(FitError::Cancelled);
     }
     for start in &mut starts {
         for (value, freedom) in start.iter_mut().zip(&options.freedoms) {
@@ -80,7 +83,9 @@ pub fn modes(
         })
         .collect();
     let ascend = |places: &[Vec<f64>], most: usize| -> Vec<Mode> {
-        let climbed = |q: &Vec<f64>| if (options.cancelled)() { None } else { climb(&near, q, most) };
+        let climbed = |q: &Vec<f64>| {
+            if (options.cancelled)() { None } else { climb(&near, q, most, options.cancelled) }
+        };
         let mut modes: Vec<Mode> = places.par_iter().filter_map(climbed).collect();
         modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
         modes
@@ -122,7 +127,7 @@ pub fn modes(
             if posterior.noise.unknown.is_some() {
                 q.push(0.0);
             }
-            if (options.cancelled)() { None } else { climb(posterior, &q, 60) }
+            if (options.cancelled)() { None } else { climb(posterior, &q, 60, options.cancelled) }
         })
         .collect();
     evaluations += found.iter().map(|mode| mode.evaluations).sum::<usize>();

@@ -5,13 +5,11 @@ use std::sync::Mutex;
 
 use kerrscope::checkpoint::{Checkpoint, CheckpointError, Identity};
 use kerrscope::spacetime::Level;
-use kerrscope_fit::fit::{Image, Keeper};
-use kerrscope_fit::models::Name;
-use kerrscope_fit::request::Request;
+use kerrscope_fit::fit::Keeper;
+use kerrscope_fit::task::Ready;
 
 use super::Arguments;
 use crate::report::Failure;
-use crate::theory::Question;
 
 /// Rounds of chains in a checkpoint.
 pub struct Kept {
@@ -35,25 +33,21 @@ impl Keeper for Kept {
 }
 
 /// The checkpoint beside the files to write.
-pub fn kept(
-    arguments: &Arguments,
-    name: &Path,
-    image: &Image,
-    (model, request, question): (Name, &Request, Option<&Question>),
-) -> Result<Kept, Failure> {
+pub fn kept(arguments: &Arguments, name: &Path, ready: &Ready) -> Result<Kept, Failure> {
+    let (image, task) = (ready.image(), ready.task());
     let mut path = name.as_os_str().to_owned();
     path.push(".checkpoint");
     let bytes: Vec<u8> = image.values.iter().flat_map(|value| value.to_le_bytes()).collect();
     let settings = format!(
         "{:?} {:?} {:?} {:?} {:?} {:?} {} {:?}",
         image.size,
-        request,
-        model,
+        task.request,
+        task.choice.name,
         arguments.projection,
         arguments.orders,
         arguments.noise,
         arguments.seed,
-        question.map(|question| &question.tested.theory)
+        task.question.as_ref().map(|question| &question.tested.theory)
     );
     let identity = Identity::of_work("fit", Level::best(), &[settings.as_bytes(), &bytes]);
     let path = Path::new(&path);

@@ -9,17 +9,16 @@ use std::sync::atomic::Ordering;
 use std::time::Instant;
 
 use kerrscope::measure::Picture;
-use kerrscope_fit::Observed;
-use kerrscope_fit::fit::{AIM, FitError, Image, Keeper, Models, Options, fit};
+use kerrscope_fit::fit::{FitError, Image, Keeper};
 use kerrscope_fit::models::{Choice, Name};
+use kerrscope_fit::question::Question;
 use kerrscope_fit::request::{Request, unknown_model};
-use kerrscope_fit::silhouette::{Silhouette, Silhouettes};
+use kerrscope_fit::task::{Report, Task, TaskError, Watch};
 use kerrscope_fit::traced::Projection;
 
 use self::kept::kept;
-use self::output::{Output, files, table};
+use self::output::{files, table};
 use crate::report::Failure;
-use crate::theory::Question;
 use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
 
 /// Find what a picture says of a hole and its disk: spin, inclination and all else at once, with errors.
@@ -130,54 +129,22 @@ enum Shape {
 
 pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let start = Instant::now();
-    let (choice, request) = asked(arguments)?;
-    let mut question = arguments
-        .spacetime
-        .as_deref()
-        .map(|word| Question::new(word, choice.name, choice.projection, &arguments.null))
-        .transpose()?;
+    let task = asked(arguments)?;
     let picture = Picture::open(&arguments.image).map_err(|error| Failure::Input(error.to_string()))?;
     let image = Image {
         size: [picture.width, picture.height],
         pixel: picture.pixel.microarcseconds,
         values: picture.values,
     };
-    let whole = image;
     let wrong = |error: FitError| Failure::Input(format!("{}: {error}", arguments.image.display()));
-    let seen =
-        (choice.name == Name::Silhouette).then(|| Silhouette::of(&whole)).transpose().map_err(wrong)?;
-    let silhouettes = seen.as_ref().map(|seen| Silhouettes::new(seen, choice));
-    let image = seen.as_ref().map_or(&whole, |seen| &seen.image);
-    let source = match (&question, &silhouettes) {
-        (Some(question), _) => question.tested.source(2),
-        (None, Some(silhouettes)) => silhouettes.source(2),
-        (None, None) => choice.source(2),
-    };
-    let model = Observed::new(source, image.size);
-    let freedoms =
-        request.freedoms(model.parameters()).map_err(|faults| Failure::Input(faults.join("\nerror: ")))?;
-    if let Some(question) = &mut question {
-        question.seek(model.parameters(), &freedoms);
-    }
-    let models: &dyn Models = match (&question, &silhouettes) {
-        (Some(question), _) => &question.tested,
-        (None, Some(silhouettes)) => silhouettes,
-        (None, None) => &choice,
-    };
-    let kept = arguments
-        .output
-        .as_deref()
-        .map(|name| kept(arguments, name, image, (choice.name, &request, question.as_ref())))
-        .transpose()?;
+    let ready = task.with(image).map_err(|error| match error {
+        TaskError::Asked(faults) => Failure::Input(faults.join("\nerror: ")),
+        TaskError::Picture(error) => wrong(error),
+    })?;
+    let kept = arguments.output.as_deref().map(|name| kept(arguments, name, &ready)).transpose()?;
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
-    let mut options = Options {
-        freedoms,
-        noise: arguments.noise,
-        seed: arguments.seed,
-        rounds: arguments.rounds,
-        aim: AIM,
-        starts: Vec::new(),
+    let watch = Watch {
         progress: &|text| bar.set_message(text.to_owned()),
         cancelled: &|| flag.load(Ordering::Relaxed),
         keeper: kept.as_ref().map(|kept| kept as &dyn Keeper),
@@ -186,14 +153,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         .num_threads(arguments.threads.map_or(0, NonZeroUsize::get))
         .build()
         .map_err(|e| Failure::Failed(format!("no threads: {e}; give fewer with --threads")))?;
-    let found = pool.install(|| {
-        if let Some(silhouettes) = &silhouettes {
-            options.starts = silhouettes.starts(&options.freedoms);
-        }
-        fit(image, models, &options)
-    });
+    let found = pool.install(|| ready.run(&watch));
     bar.finish_and_clear();
-    let mut found = found.map_err(|error| match error {
+    let found = found.map_err(|error| match error {
         FitError::Cancelled => Failure::Interrupted(match &arguments.output {
             Some(_) => "the same command with --resume goes on".to_owned(),
             None => "nothing was kept: with --output NAME it can be gone on with".to_owned(),
@@ -201,36 +163,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
         FitError::Keeper(fault) => Failure::Failed(fault),
         fault => wrong(fault),
     })?;
-    found.warnings.extend(seen.iter().flat_map(Silhouette::warnings));
-    let answers = question.map(|q| q.answers(&found, model.parameters(), &options.freedoms));
-    let output = Output {
-        model: choice.name.name(),
-        spacetime: arguments.spacetime.as_deref(),
-        tests: answers.as_deref(),
-        parameters: &found.estimates,
-        converged: found.converged,
-        good: found.good,
-        warnings: &found.warnings,
-        chi2: found.chi2,
-        degrees: found.degrees,
-        explained: found.explained,
-        evidence: found.evidence,
-        evaluations: found.evaluations,
-        wall_s: start.elapsed().as_secs_f64(),
-        seed: arguments.seed,
-        version: env!("CARGO_PKG_VERSION"),
-    };
+    let wall_s = start.elapsed().as_secs_f64();
+    let report = Report::of(ready.task(), &found, arguments.spacetime.as_deref(), wall_s);
     if let Some(name) = &arguments.output {
-        files(name, image, &found, &output)?;
+        files(name, ready.image(), &found.fit, &report)?;
     }
     if let Some(kept) = kept {
         kept.checkpoint.remove().map_err(|e| Failure::Failed(e.to_string()))?;
     }
-    if arguments.format == Format::Json { print_json(&output) } else { print(&table(&output)) }
+    if arguments.format == Format::Json { print_json(&report) } else { print(&table(&report)) }
 }
 
-/// The model and what is said of its parameters; all faults at once.
-fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
+/// The model, what is said of its parameters, and the rest; all faults at once.
+fn asked(arguments: &Arguments) -> Result<Task, Failure> {
     let mut faults = Vec::new();
     let (mut name, mut request) = (None, Request::default());
     if let Some(path) = &arguments.parameters {
@@ -272,25 +217,22 @@ fn asked(arguments: &Arguments) -> Result<(Choice, Request), Failure> {
             _ => name = Some(Name::Silhouette),
         }
     }
-    if name != Some(Name::Silhouette) && arguments.orders.is_some() {
-        faults.push("--orders is for silhouettes: give --silhouette too, or leave it away".to_owned());
-    }
-    if name == Some(Name::Silhouette) && arguments.noise.is_some() {
-        faults.push("a silhouette has edges alone, whose error is found: leave --noise away".to_owned());
-    }
-    if let Some(noise) = arguments.noise
-        && noise <= 0.0
-    {
-        faults.push(format!("--noise is {noise}, and has to be above 0"));
-    }
     let projection = match arguments.projection {
         Shape::Angular => Projection::Angular,
         Shape::Pinhole => Projection::Pinhole,
     };
     let orders = arguments.orders.map(usize::from);
     let choice = Choice { name: name.unwrap_or_default(), projection, orders };
-    if choice.name == Name::Ring && arguments.distance.is_some() {
-        faults.push("a ring on the sky has no distance: leave --distance away".to_owned());
+    let (noise, seed, rounds) = (arguments.noise, arguments.seed, arguments.rounds);
+    let mut task = Task { choice, request, question: None, noise, seed, rounds };
+    faults.extend(task.faults(|name| format!("--{name}")));
+    if faults.is_empty()
+        && let Some(word) = &arguments.spacetime
+    {
+        match Question::new(word, choice.name, projection, &arguments.null) {
+            Ok(question) => task.question = Some(question),
+            Err(wrong) => faults = wrong,
+        }
     }
-    if faults.is_empty() { Ok((choice, request)) } else { Err(Failure::Input(faults.join("\nerror: "))) }
+    if faults.is_empty() { Ok(task) } else { Err(Failure::Input(faults.join("\nerror: "))) }
 }

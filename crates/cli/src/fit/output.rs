@@ -8,36 +8,12 @@ use kerrscope_fit::evidence::Test;
 use kerrscope_fit::fit::{Fit, Image};
 use kerrscope_fit::output::residual::Residual;
 use kerrscope_fit::output::{Record, chain, corner};
-use kerrscope_fit::summary::Estimate;
-use serde::Serialize;
+use kerrscope_fit::task::Report;
 
 use crate::report::Failure;
-use crate::theory;
-
-/// A fit as JSON.
-#[derive(Serialize)]
-pub struct Output<'a> {
-    pub model: &'a str,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spacetime: Option<&'a str>,
-    pub parameters: &'a [Estimate],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tests: Option<&'a [Test]>,
-    pub converged: bool,
-    pub good: bool,
-    pub warnings: &'a [String],
-    pub chi2: f64,
-    pub degrees: usize,
-    pub explained: f64,
-    pub evidence: f64,
-    pub evaluations: usize,
-    pub wall_s: f64,
-    pub seed: u64,
-    pub version: &'static str,
-}
 
 /// Writes the files of a fit.
-pub fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Result<(), Failure> {
+pub fn files(name: &Path, image: &Image, found: &Fit, output: &Report<'_>) -> Result<(), Failure> {
     let file = |ending: &str| {
         let mut path = name.as_os_str().to_owned();
         path.push(ending);
@@ -46,9 +22,7 @@ pub fn files(name: &Path, image: &Image, found: &Fit, output: &Output<'_>) -> Re
     let failed = |error: &dyn std::fmt::Display| Failure::Failed(error.to_string());
     let json = serde_json::to_string_pretty(output).map_err(|e| failed(&e))?;
     whole(&file(".json"), &json)?;
-    let words: Vec<(String, String)> = std::iter::once(("model".to_owned(), output.model.to_owned()))
-        .chain(output.parameters.iter().filter(|e| !e.free).map(|e| (e.name.clone(), e.mode.to_string())))
-        .collect();
+    let words = output.words();
     let record = Record { seed: output.seed, model: &words };
     chain::write(&file(".chain.h5"), found, &record).map_err(|e| failed(&e))?;
     let title = format!("{} fitted to {}", output.model, name.display());
@@ -64,7 +38,7 @@ fn whole(path: &Path, text: &str) -> Result<(), Failure> {
 }
 
 /// The table, for reading.
-pub fn table(output: &Output<'_>) -> String {
+pub fn table(output: &Report<'_>) -> String {
     let mut text = String::new();
     let _ = writeln!(
         text,
@@ -102,7 +76,7 @@ pub fn table(output: &Output<'_>) -> String {
         output.evaluations,
         output.wall_s
     );
-    text.push_str(&output.tests.map(theory::lines).unwrap_or_default());
+    text.push_str(&output.tests.map(lines).unwrap_or_default());
     for warning in output.warnings {
         let _ = writeln!(text, "warning: {warning}");
     }
@@ -120,4 +94,25 @@ fn significant(value: f64, error: f64) -> String {
     } else {
         format!("{value:.5e}")
     }
+}
+
+/// Tests in words.
+pub fn lines(tests: &[Test]) -> String {
+    let mut text = String::new();
+    for Test { name, null, deviations, tail, ln_bayes, error, gaussian } in tests {
+        let side = if *deviations > 0.0 { "above" } else { "below" };
+        let bayes = match error {
+            Some(error) => format!("K = {:.3}, ln K = {ln_bayes:.2} ± {error:.2}", ln_bayes.exp()),
+            None => format!(
+                "ln K < {ln_bayes:.1}, as no draw lies near it; {gaussian:.1} if the tail is a Gaussian's"
+            ),
+        };
+        let _ = writeln!(
+            text,
+            "{name} = {null}, as in Kerr's spacetime: the posterior is {:.1} deviations {side} it (two-sided tail {tail:.3}); evidence for \
+             it against free, {bayes}",
+            deviations.abs()
+        );
+    }
+    text
 }

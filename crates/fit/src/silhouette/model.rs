@@ -4,7 +4,7 @@ use super::misfit::grouped;
 use super::{Silhouette, start};
 use crate::fit::{Image, Models};
 use crate::likelihood::Noise;
-use crate::model::{Freedom, Source};
+use crate::model::{Cancelled, Freedom, Source};
 use crate::models::Choice;
 use crate::traced::{Lit, Outline};
 
@@ -29,9 +29,9 @@ impl<'a> Silhouettes<'a> {
     }
 
     /// Where to begin, with what is known of each parameter.
-    pub fn starts(&self, freedoms: &[Freedom]) -> Vec<Vec<f64>> {
+    pub fn starts(&self, freedoms: &[Freedom], cancelled: Cancelled<'_>) -> Vec<Vec<f64>> {
         let outline = self.outline();
-        start::find(&self.seen.image, &outline, self.choice.projection, freedoms)
+        start::find(&self.seen.image, &outline, self.choice.projection, freedoms, cancelled)
     }
 }
 

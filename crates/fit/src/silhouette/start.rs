@@ -1,7 +1,7 @@
 //! Disks that what is lit may be of.
 
 use crate::fit::Image;
-use crate::model::Freedom;
+use crate::model::{Cancelled, Freedom};
 use crate::traced::{self, Fineness, Frame, Outline, Painter, Profile, Projection, Setting, Template};
 
 const SPINS: [f64; 3] = [-0.6, 0.3, 0.9];
@@ -13,7 +13,13 @@ const WIDTHS: (f64, f64, i32) = (12.0, 1.35, 9);
 const STRETCHES: [f64; 3] = [0.9, 1.0, 1.12];
 
 /// All parameters of a disk's silhouette, the likeliest first. `freedoms` are theirs: what is known is kept.
-pub fn find(image: &Image, outline: &Outline, projection: Projection, freedoms: &[Freedom]) -> Vec<Vec<f64>> {
+pub fn find(
+    image: &Image,
+    outline: &Outline,
+    projection: Projection,
+    freedoms: &[Freedom],
+    cancelled: Cancelled<'_>,
+) -> Vec<Vec<f64>> {
     let known = |k: usize, usual: &[f64]| match freedoms.get(k) {
         Some(Freedom::Fixed(value)) => vec![*value],
         _ => usual.to_vec(),
@@ -50,7 +56,7 @@ pub fn find(image: &Image, outline: &Outline, projection: Projection, freedoms: 
         }
     }
     let painter = Painter::new(projection, true, outline.fineness(Fineness::SKETCH));
-    let found = traced::among(&image.values, image.size, &painter, &templates);
+    let found = traced::among(&image.values, image.size, &painter, &templates, cancelled);
     let bins = outline.bins;
     found
         .into_iter()

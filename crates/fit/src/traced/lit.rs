@@ -4,7 +4,7 @@ use super::matter::Profile;
 use super::picture::{Fineness, Painter, Setting};
 use super::screen::{Frame, Projection};
 use super::source::{Disk, Kind};
-use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
+use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
 use crate::silhouette::{Bins, bent};
 
@@ -152,7 +152,7 @@ impl Source for Lit {
     }
 
     /// None: a silhouette's are found with what is known of its parameters.
-    fn starts(&self, _: &[f64], _: [usize; 2]) -> Vec<Vec<f64>> {
+    fn starts(&self, _: &[f64], _: [usize; 2], _: Cancelled<'_>) -> Vec<Vec<f64>> {
         Vec::new()
     }
 

@@ -4,7 +4,7 @@ use super::canvas::CHANNELS;
 use super::matter::Profile;
 use super::picture::{Fineness, Painter, Setting, Unseen};
 use super::screen::{Frame, Projection};
-use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
+use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
 
 /// What a disk's parameters are called.
@@ -199,8 +199,8 @@ impl Source for Disk {
         }
     }
 
-    fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>> {
-        super::start::find(values, size)
+    fn starts(&self, values: &[f64], size: [usize; 2], cancelled: Cancelled<'_>) -> Vec<Vec<f64>> {
+        super::start::find(values, size, cancelled)
             .into_iter()
             .map(|found| {
                 let mut start = vec![

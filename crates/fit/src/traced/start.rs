@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::matter::Profile;
 use super::picture::{Fineness, Painter, Setting};
 use super::screen::{Frame, Projection};
+use crate::model::Cancelled;
 use crate::reduce::reduced;
 
 /// A disk that a picture may be of.
@@ -58,7 +59,7 @@ struct Coarse {
 }
 
 /// Disks that a picture may be of, the most alike first.
-pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
+pub fn find(values: &[f64], size: [usize; 2], cancelled: Cancelled<'_>) -> Vec<Start> {
     let painter = Painter::new(Projection::Angular, true, Fineness::SKETCH);
     let mut templates = Vec::new();
     for spin in SPINS {
@@ -77,11 +78,17 @@ pub fn find(values: &[f64], size: [usize; 2]) -> Vec<Start> {
             }
         }
     }
-    among(values, size, &painter, &templates)
+    among(values, size, &painter, &templates, cancelled)
 }
 
 /// Disks among some that a picture may be of, the most alike first.
-pub fn among(values: &[f64], size: [usize; 2], painter: &Painter, templates: &[Template]) -> Vec<Start> {
+pub fn among(
+    values: &[f64],
+    size: [usize; 2],
+    painter: &Painter,
+    templates: &[Template],
+    cancelled: Cancelled<'_>,
+) -> Vec<Start> {
     let factor = size[0].max(size[1]).div_ceil(COARSE).max(1);
     let (mut means, small) = reduced(values, size, factor);
     let mean = means.iter().sum::<f64>() / means.len().max(1) as f64;
@@ -96,6 +103,7 @@ pub fn among(values: &[f64], size: [usize; 2], painter: &Painter, templates: &[T
     let mut found: Vec<Start> = templates
         .par_iter()
         .enumerate()
+        .filter(|_| !cancelled())
         .flat_map_iter(|(number, Template { setting, width })| {
             let frame = Frame {
                 size: [TEMPLATE; 2],

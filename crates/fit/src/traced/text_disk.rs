@@ -12,7 +12,7 @@ use super::source::Kind;
 use super::spacetime::Spacetime;
 use super::tabulated::{Changing, Neighbours, Tabulated, difference};
 use super::theory::{SPIN, Theory};
-use crate::model::{Freedom, Parameter, Prediction, Source, Unpredictable};
+use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
 
 /// An opaque disk on circular geodesics about +z, in the light of all frequencies, I = g⁴F/π.
@@ -348,10 +348,10 @@ impl Source for TextDisk {
         }
     }
 
-    fn starts(&self, values: &[f64], size: [usize; 2]) -> Vec<Vec<f64>> {
+    fn starts(&self, values: &[f64], size: [usize; 2], cancelled: Cancelled<'_>) -> Vec<Vec<f64>> {
         let disk = super::Disk::new(self.kind, true, Projection::Angular, Fineness::SKETCH);
         let names = disk.parameters();
-        disk.starts(values, size)
+        disk.starts(values, size, cancelled)
             .into_iter()
             .take(STARTS)
             .map(|start| {

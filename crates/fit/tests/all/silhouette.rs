@@ -49,11 +49,11 @@ fn climbed(image: &Image, start: &[f64; 10], truth: &[f64; 10], free: &[usize]) 
     let first = models.noise(&seen.image, None);
     let data = seen.image.values.as_slice();
     let posterior = Posterior { model: &model, data, noise: &first, coordinates: &coordinates };
-    let mode = climb(&posterior, &[start.as_slice(), &[0.0]].concat(), 60).unwrap();
+    let mode = climb(&posterior, &[start.as_slice(), &[0.0]].concat(), 60, &|| false).unwrap();
     let best = model.predict(&mode.evaluation.values[..10], false).unwrap();
     let noise = models.revised(&seen.image, &best.values).unwrap();
     let posterior = Posterior { noise: &noise, ..posterior };
-    let mode = climb(&posterior, &mode.place[..start.len()], 40).unwrap();
+    let mode = climb(&posterior, &mode.place[..start.len()], 40, &|| false).unwrap();
     let covariance = mode.factor.inverse();
     let pulls = (0..start.len()).map(|k| (mode.place[k] - goal[k]) / covariance[(k, k)].sqrt()).collect();
     let mean = data.iter().sum::<f64>() / data.len() as f64;

@@ -15,6 +15,8 @@ pub struct FileError {
     pub fault: String,
     /// What to do about it.
     pub mend: &'static str,
+    /// What the system says of it; none if the system has nothing against it, but the file is not what it should be.
+    pub kind: Option<ErrorKind>,
 }
 
 impl FileError {
@@ -24,7 +26,7 @@ impl FileError {
         fault: impl Into<String>,
         mend: &'static str,
     ) -> Self {
-        Self { path: path.to_path_buf(), action, fault: fault.into(), mend }
+        Self { path: path.to_path_buf(), action, fault: fault.into(), mend, kind: None }
     }
 
     /// A file that could not be written.
@@ -53,7 +55,7 @@ impl FileError {
             ErrorKind::NotADirectory => ("a part of the path is not a folder".to_owned(), "check the path"),
             _ => (error.to_string(), "check the disk or choose another place"),
         };
-        Self::new("write", path, fault, mend)
+        Self { kind: Some(error.kind()), ..Self::new("write", path, fault, mend) }
     }
 
     /// A file that could not be read.
@@ -64,6 +66,6 @@ impl FileError {
             ErrorKind::IsADirectory => ("it is a folder".to_owned(), "give a file in it"),
             _ => (error.to_string(), "check the file and the disk that it is on"),
         };
-        Self::new("read", path, fault, mend)
+        Self { kind: Some(error.kind()), ..Self::new("read", path, fault, mend) }
     }
 }

@@ -43,7 +43,10 @@ pub fn write_atomically(
     if path.as_os_str().is_empty() {
         return Err(FileError::new("write", path, "the name is empty", "give a file name"));
     }
-    let is_folder = || FileError::new("write", path, "it is a folder", "give a file name in it");
+    let is_folder = || FileError {
+        kind: Some(io::ErrorKind::IsADirectory),
+        ..FileError::new("write", path, "it is a folder", "give a file name in it")
+    };
     // Paths drop a slash at the end, which says that a folder is meant.
     if path.as_os_str().as_encoded_bytes().ends_with(b"/") || path.file_name().is_none() {
         return Err(is_folder());

@@ -21,6 +21,7 @@ use fits_well::{FitsError, FitsReader, FitsWriter};
 
 use super::file::write_atomically;
 use super::images::{Image, ImageSet, JANSKYS};
+use super::saved::Sheet;
 use super::{FileError, Provenance};
 
 /// The extension that says how a file was made.
@@ -203,6 +204,34 @@ pub fn decode_provenance(file: impl Read + Seek, path: &Path) -> Result<Provenan
         other => FileError::new("read", path, other.to_string(), "give a FITS file that is whole"),
     })?;
     Provenance::from_file(path, text)
+}
+
+/// The images of a file of this program.
+///
+/// # Errors
+/// When they cannot be read.
+pub(super) fn sheets(bytes: &[u8], path: &Path) -> Result<Vec<Sheet>, FileError> {
+    find_sheets(bytes)
+        .map_err(|e| FileError::new("read", path, e.to_string(), "give a FITS file that is whole"))
+}
+
+fn find_sheets(bytes: &[u8]) -> Result<Vec<Sheet>, FitsError> {
+    let mut reader = FitsReader::from_bytes(bytes)?;
+    let mut sheets = Vec::new();
+    for number in 0..reader.hdus().len() {
+        let hdu = &reader.hdus()[number];
+        let name = hdu.extname()?.map_or_else(|| "intensity".to_owned(), |name| name.trim().to_owned());
+        if !hdu.is_image() || hdu.data_bytes == 0 || name.eq_ignore_ascii_case(RECORD) {
+            continue;
+        }
+        let unit = hdu.header.get_text("BUNIT").ok().flatten().unwrap_or_default().trim().to_owned();
+        let [width, height] = hdu.image_metadata()?.shape[..] else { continue };
+        let mut stored = Vec::new();
+        reader.image(number).and_then(|mut image| image.physical_into(.., &mut stored))?;
+        let values = stored.chunks_exact(width.max(1)).rev().flatten().copied().collect();
+        sheets.push(Sheet { name, unit, size: [width, height], values });
+    }
+    Ok(sheets)
 }
 
 fn find_record(file: impl Read + Seek) -> Result<Option<String>, FitsError> {

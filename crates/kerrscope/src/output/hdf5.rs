@@ -17,7 +17,9 @@ use hdf5_pure::{AttrValue, Error, File, FileBuilder, VlenStringReadOptions};
 
 use super::file::write_atomically;
 use super::images::ImageSet;
+use super::saved::Sheet;
 use super::{FileError, Provenance};
+use crate::render::Layer;
 
 /// The dataset that says how a file was made.
 const RECORD: &str = "kerrscope";
@@ -109,6 +111,32 @@ fn wrong(path: &Path, error: Error) -> FileError {
         Error::Io(e) if e.kind() != io::ErrorKind::UnexpectedEof => FileError::read(path, &e),
         other => FileError::new("read", path, other.to_string(), "give an HDF5 file that is whole"),
     }
+}
+
+/// The images of a file of this program.
+///
+/// # Errors
+/// When they cannot be read.
+pub(super) fn sheets(bytes: Vec<u8>, path: &Path) -> Result<Vec<Sheet>, FileError> {
+    find_sheets(bytes).map_err(|e| wrong(path, e))
+}
+
+fn find_sheets(bytes: Vec<u8>) -> Result<Vec<Sheet>, Error> {
+    let file = File::from_bytes(bytes)?;
+    let light = ["intensity", "red", "green", "blue"].map(str::to_owned);
+    let layers = Layer::ALL.into_iter().flat_map(Layer::channels).map(|channel| channel.name().into_owned());
+    let mut sheets = Vec::new();
+    for name in light.into_iter().chain(layers) {
+        let Ok(image) = file.dataset(&name) else { continue };
+        let [height, width] = image.shape()?[..] else { continue };
+        let unit = match image.attrs()?.get("unit") {
+            Some(AttrValue::VarLenString(unit) | AttrValue::AsciiString(unit)) => unit.clone(),
+            _ => String::new(),
+        };
+        let size = [width, height].map(|edge| edge as usize);
+        sheets.push(Sheet { unit, size, values: image.read_f64()?, name });
+    }
+    Ok(sheets)
 }
 
 fn find_record(file: Result<File, Error>) -> Result<Option<String>, Error> {

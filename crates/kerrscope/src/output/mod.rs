@@ -12,8 +12,10 @@ pub mod hdf5;
 mod images;
 pub mod png;
 mod provenance;
+mod saved;
 
 pub use error::FileError;
 pub use format::Format;
 pub use images::{Image, ImageSet, Intensity};
 pub use provenance::{Provenance, ProvenanceFault};
+pub use saved::{Saved, SavedError, draft};

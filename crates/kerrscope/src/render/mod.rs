@@ -20,7 +20,7 @@ pub use sampling::Sampler;
 pub use setting::world;
 pub use stage::{Replay, Stage, StageError};
 pub use tally::{Interpolation, Tally};
-pub use tracer::{obstacle_tracer, tracer};
+pub use tracer::{hole_tracer, obstacle_tracer, tracer};
 
 use crate::checkpoint::Checkpoint;
 use crate::output::FileError;

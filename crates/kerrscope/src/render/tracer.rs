@@ -26,6 +26,27 @@ pub fn tracer(scene: &Scene, level: Level) -> Box<dyn Tracer> {
     }
 }
 
+/// Steps after which a ray around a hole without a scene is given up.
+const MAX_STEPS: usize = 100_000;
+
+/// Tolerance of its integrator.
+const TOLERANCE: f64 = 1e-12;
+
+/// The tracer of an engine's name around a hole of spin a in [−1, 1], without a scene: "auto" and "closed-form", or "integrator".
+///
+/// # Errors
+/// If no engine is called so.
+pub fn hole_tracer(engine: &str, spin: f64) -> Result<Box<dyn Tracer>, String> {
+    match engine {
+        "auto" | "closed-form" => Ok(Box::new(ClosedForm::new(spin, NODES, MAX_STEPS))),
+        "integrator" => {
+            let scheme = Scheme::Dop853 { tolerance: TOLERANCE };
+            Ok(Integrator::new(Kerr::new(spin), scheme, MAX_STEPS).boxed())
+        }
+        engine => Err(format!("no engine is called {engine:?}: give auto, closed-form or integrator")),
+    }
+}
+
 /// The tracer of a scene whose rays meet things. It follows them one by one.
 pub fn obstacle_tracer(scene: &Scene) -> Box<dyn ObstacleTracer> {
     match (&scene.spacetime, scene.spacetime.spin()) {

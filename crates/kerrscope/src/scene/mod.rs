@@ -32,8 +32,10 @@
 
 mod build;
 pub(crate) mod check;
+mod draft;
 pub(crate) mod fault;
 pub mod file;
+mod keys;
 mod metric;
 mod overrides;
 pub(crate) mod read;
@@ -46,8 +48,10 @@ use std::path::Path;
 
 use crate::units::Units;
 
+pub use draft::Draft;
 pub use fault::{Fault, Faults, Source};
 pub use file::{Coordinates, SceneFile};
+pub use keys::{KeyError, key};
 pub use metric::{known_metric, known_metrics, metric_from_file};
 pub use valid::{
     Disk, Display, Engine, Method, Object, ObjectPattern, Observer, Render, Screen, ScreenKind, Sky,

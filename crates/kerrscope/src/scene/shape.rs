@@ -44,6 +44,11 @@ impl<'s> Shape<'s> {
             .any(|schema| schema.get("items").is_some_and(|items| kind(items) == "object"))
     }
 
+    /// The tables that are allowed.
+    pub(super) fn tables(&self) -> impl Iterator<Item = &'s Json> {
+        self.alternatives.iter().copied().filter(|schema| kind(schema) == "object")
+    }
+
     /// The words allowed; none if any text is, or no text.
     pub(super) fn words(&self) -> Vec<&'s str> {
         self.alternatives.iter().filter_map(|schema| schema.get("const")?.as_str()).collect()

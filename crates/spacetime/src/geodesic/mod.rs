@@ -51,6 +51,18 @@ pub enum Fate {
     StepLimit,
 }
 
+impl Fate {
+    /// What it is called: "escaped", "captured", "hit" or "step-limit".
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Escaped => "escaped",
+            Self::Captured => "captured",
+            Self::Hit => "hit",
+            Self::StepLimit => "step-limit",
+        }
+    }
+}
+
 /// What to find along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Query {

@@ -6,7 +6,7 @@ mod patch;
 mod site;
 mod tetrad;
 
-pub use impact::impact_ray;
+pub use impact::{ImpactScreen, impact_ray};
 pub use motion::{Motion, ObserverError, Place, check};
 pub use patch::{Drift, Patch, clearance, clearance_in_metric};
 pub use tetrad::Observer;

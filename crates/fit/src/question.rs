@@ -1,19 +1,18 @@
 //! What of a fit is about the theory: the metric that the disk is in, and what speaks for Kerr's.
 
-use std::fmt::Write;
 use std::path::Path;
 use std::sync::Arc;
 
 use kerrscope::scene::{known_metric, known_metrics, metric_from_file};
-use kerrscope_fit::evidence::{Test, test};
-use kerrscope_fit::fit::Fit;
-use kerrscope_fit::model::{Freedom, Parameter};
-use kerrscope_fit::models::{Name, Tested};
-use kerrscope_fit::traced::{Projection, SPIN, Theory};
 
-use crate::report::Failure;
+use crate::evidence::{Test, test};
+use crate::fit::Fit;
+use crate::model::{Freedom, Parameter};
+use crate::models::{Name, Tested};
+use crate::traced::{Projection, SPIN, Theory};
 
 /// A theory, and the values of its parameters with which it is Kerr's.
+#[derive(Clone, Debug)]
 pub struct Question {
     /// What is fitted.
     pub tested: Tested,
@@ -22,9 +21,17 @@ pub struct Question {
 
 impl Question {
     /// Of a metric by its name or its file, a disk of a model, and `NAME=VALUE` for each value that is not 0.
-    pub fn new(word: &str, model: Name, projection: Projection, nulls: &[String]) -> Result<Self, Failure> {
-        let theory = Arc::new(read(word)?);
-        let kind = Tested::kind(model).map_err(Failure::Input)?;
+    ///
+    /// # Errors
+    /// All faults.
+    pub fn new(
+        word: &str,
+        model: Name,
+        projection: Projection,
+        nulls: &[String],
+    ) -> Result<Self, Vec<String>> {
+        let theory = Arc::new(read(word).map_err(|fault| vec![fault])?);
+        let kind = Tested::kind(model).map_err(|fault| vec![fault])?;
         let mut faults = Vec::new();
         // The spin of a Kerr hole may have any value.
         let mut values: Vec<(String, f64)> = theory
@@ -38,12 +45,12 @@ impl Question {
                 .split_once('=')
                 .and_then(|(name, value)| Some((name.trim(), value.trim().parse::<f64>().ok()?)));
             let Some((name, value)) = named.filter(|(_, value)| value.is_finite()) else {
-                faults.push(format!("--null {text:?}: give NAME=VALUE, as charge=0"));
+                faults.push(format!("null {text:?}: give NAME=VALUE, as charge=0"));
                 continue;
             };
             if !theory.parameters().iter().any(|(known, _)| *known == name) {
                 let known: Vec<&str> = theory.parameters().iter().map(|(known, _)| *known).collect();
-                faults.push(format!("--null: {word} has no parameter {name:?}: it has {}", known.join(", ")));
+                faults.push(format!("null: {word} has no parameter {name:?}: it has {}", known.join(", ")));
             }
             values.retain(|(known, _)| known != name);
             values.push((name.to_owned(), value));
@@ -52,7 +59,7 @@ impl Question {
             let tested = Tested { theory, kind, projection, free: Vec::new() };
             Ok(Self { tested, nulls: values })
         } else {
-            Err(Failure::Input(faults.join("\nerror: ")))
+            Err(faults)
         }
     }
 
@@ -68,40 +75,19 @@ impl Question {
     }
 }
 
-fn read(word: &str) -> Result<Theory, Failure> {
+fn read(word: &str) -> Result<Theory, String> {
     let element = match known_metric(word, &[]) {
         Some(known) => known,
         None if Path::new(word).is_file() => metric_from_file(Path::new(word), &[]),
         None => {
             let names: Vec<&str> = known_metrics().collect();
-            return Err(Failure::Input(format!(
-                "--spacetime {word:?} is neither a file nor a metric that is known as text: these are {}. Around a Kerr hole of its \
-                 own equations leave --spacetime away",
+            return Err(format!(
+                "spacetime {word:?} is neither a file nor a metric that is known as text: these are {}. Around a Kerr hole of its \
+                 own equations leave it away",
                 names.join(", ")
-            )));
+            ));
         }
     };
-    let element = element.map_err(|faults| Failure::Input(faults.to_string()))?;
-    Theory::new(element).map_err(|reason| Failure::Input(format!("--spacetime {word}: the metric {reason}")))
-}
-
-/// Tests in words.
-pub fn lines(tests: &[Test]) -> String {
-    let mut text = String::new();
-    for Test { name, null, deviations, tail, ln_bayes, error, gaussian } in tests {
-        let side = if *deviations > 0.0 { "above" } else { "below" };
-        let bayes = match error {
-            Some(error) => format!("K = {:.3}, ln K = {ln_bayes:.2} ± {error:.2}", ln_bayes.exp()),
-            None => format!(
-                "ln K < {ln_bayes:.1}, as no draw lies near it; {gaussian:.1} if the tail is a Gaussian's"
-            ),
-        };
-        let _ = writeln!(
-            text,
-            "{name} = {null}, as in Kerr's spacetime: the posterior is {:.1} deviations {side} it (two-sided tail {tail:.3}); evidence for \
-             it against free, {bayes}",
-            deviations.abs()
-        );
-    }
-    text
+    let element = element.map_err(|faults| faults.to_string())?;
+    Theory::new(element).map_err(|reason| format!("spacetime {word}: the metric {reason}"))
 }
