@@ -1,5 +1,6 @@
 //! `kerrscope survey`: pictures of a scene over ranges of its keys.
 
+use std::fmt::Write;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -111,16 +112,16 @@ struct Merge {
 }
 
 #[derive(Serialize)]
-struct Made {
+struct Output {
     tasks: usize,
     made: usize,
-    failed: Vec<Fault>,
+    failed: Vec<Failing>,
     wall_s: f64,
     folder: String,
 }
 
 #[derive(Serialize)]
-struct Fault {
+struct Failing {
     number: usize,
     task: String,
     fault: String,
@@ -167,7 +168,7 @@ fn plan(arguments: &Planned) -> Result<(), Failure> {
     let mut text = format!("task                              {}", plan.keys.join("  "));
     for task in &plan.tasks {
         let values: Vec<String> = task.values.iter().map(ToString::to_string).collect();
-        text += &format!("\n{}  {}", task.name, values.join("  "));
+        let _ = write!(text, "\n{}  {}", task.name, values.join("  "));
     }
     print(&text)
 }
@@ -193,9 +194,9 @@ fn make(arguments: &Run, quiet: bool) -> Result<(), Failure> {
         other => Failure::Failed(other.to_string()),
     })?;
     let made = missing - failed.len();
-    let failed: Vec<Fault> = failed
+    let failed: Vec<Failing> = failed
         .into_iter()
-        .map(|failed| Fault {
+        .map(|failed| Failing {
             number: failed.number,
             task: plan.tasks[failed.number].name.clone(),
             fault: failed.error.to_string(),
@@ -212,7 +213,7 @@ fn make(arguments: &Run, quiet: bool) -> Result<(), Failure> {
     });
     if arguments.format == Format::Json {
         let tasks = plan.tasks.len();
-        print_json(&Made { tasks, made, failed, wall_s, folder: path.display().to_string() })?;
+        print_json(&Output { tasks, made, failed, wall_s, folder: path.display().to_string() })?;
     } else if !quiet {
         print(&format!("Made {made} of {} pictures in {wall_s:.2} s: {}", plan.tasks.len(), path.display()))?;
     }
@@ -230,10 +231,10 @@ fn status(arguments: &Asked) -> Result<(), Failure> {
     let mut text =
         format!("{done} of {tasks} pictures are there; {seconds:.1} s of work by {workers} processes");
     if repeated > 0 {
-        text += &format!("; {repeated} were made more than once");
+        let _ = write!(text, "; {repeated} were made more than once");
     }
     if others > 0 {
-        text += &format!("; {others} results are of other surveys, or of other versions");
+        let _ = write!(text, "; {others} results are of other surveys, or of other versions");
     }
     print(&text)
 }

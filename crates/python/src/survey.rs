@@ -94,7 +94,14 @@ impl Plan {
     }
 
     /// Puts a result in its place, with a note of who made it.
-    fn keep(&self, folder: PathBuf, number: usize, contents: &[u8], worker: String, seconds: f64) -> PyResult<()> {
+    fn keep(
+        &self,
+        folder: PathBuf,
+        number: usize,
+        contents: &[u8],
+        worker: String,
+        seconds: f64,
+    ) -> PyResult<()> {
         let task = self.task(number)?;
         let folder = Folder::create(&folder).map_err(|error| faults::file(&error))?;
         let done = Done { task: task.name.clone(), worker, seconds };

@@ -86,7 +86,7 @@ fn texts_of_kerr_have_the_picture_of_kerr() {
 #[test]
 fn derivatives_are_differences() {
     let common = [60.0, 20.0, 0.94, 0.3, -0.2, 1000.0, 1.1, 13.0];
-    let finer = Fineness { lines: 640, step: 0.015, bend: 0.03, orders: 3 };
+    let finer = Fineness { lines: 640, step: 0.015, bend: 0.03, orders: 3, ..Fineness::default() };
     for (name, kind, own, free) in [
         (
             "johannsen",

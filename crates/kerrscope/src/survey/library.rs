@@ -42,9 +42,18 @@ pub enum LibraryError {
     Unlike(String),
 }
 
-/// The images of one result: for each its size and its numbers.
+/// An image of a result.
+struct Shown {
+    /// Height and width.
+    size: [u64; 2],
+    values: Vec<f64>,
+    /// Title and unit.
+    words: [String; 2],
+}
+
+/// One result.
 struct Pictured {
-    images: BTreeMap<String, ([u64; 2], Vec<f64>, [String; 2])>,
+    images: BTreeMap<String, Shown>,
     attributes: BTreeMap<String, AttrValue>,
 }
 
@@ -68,7 +77,7 @@ pub fn library(plan: &Plan, folders: &[Folder], to: &Path, partial: bool) -> Res
     let mut shared: Option<BTreeMap<String, AttrValue>> = None;
     for (number, (_, path)) in there.iter().enumerate() {
         let Pictured { images, attributes } = read(path)?;
-        for (name, (size, values, about)) in images {
+        for (name, Shown { size, values, words: about }) in images {
             if *shape.get_or_insert(size) != size {
                 let what = "pictures of several sizes do not make one library: let no size vary";
                 return Err(LibraryError::Unlike(format!("{}: {what}", path.display())));
@@ -177,7 +186,8 @@ fn read(path: &Path) -> Result<Pictured, FileError> {
             _ => String::new(),
         };
         let values = dataset.read_f64().map_err(wrong)?;
-        images.insert(name, ([height, width], values, [text("title"), text("unit")]));
+        let words = [text("title"), text("unit")];
+        images.insert(name, Shown { size: [height, width], values, words });
     }
     let attributes = root.attrs().map_err(wrong)?.into_iter().collect();
     Ok(Pictured { images, attributes })

@@ -41,6 +41,7 @@ mod text_curvature;
 mod text_disk;
 mod text_objects;
 mod text_rays;
+mod texts;
 mod texture;
 mod texture_formats;
 mod texture_sphere;

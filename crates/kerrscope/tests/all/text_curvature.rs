@@ -1,6 +1,6 @@
 //! Metrics as text against the curvature that they are known to have.
 
-mod texts;
+use crate::texts;
 
 use kerrscope::spacetime::metric::{Kerr, LineElement, Metric};
 use kerrscope::spacetime::tensor::{Tensor, inverse};

@@ -1,6 +1,6 @@
 //! Disks in metrics as text: those of the holes that they are, and published ones.
 
-mod texts;
+use crate::texts;
 
 use kerrscope::spacetime::emitter::{Circular, CircularError, Departure, Sense};
 use kerrscope::spacetime::geodesic::{Integrator, Path, Query, Scheme, TextTracer, Tracer};

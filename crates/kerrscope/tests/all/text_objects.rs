@@ -1,6 +1,6 @@
 //! Things and disks in metrics as text, against the same in the spacetimes that are built in.
 
-mod texts;
+use crate::texts;
 
 use std::path::Path as FilePath;
 use std::sync::Arc;

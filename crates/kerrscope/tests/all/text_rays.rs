@@ -1,6 +1,6 @@
 //! Rays in metrics as text, against rays of the same holes and against what is published.
 
-mod texts;
+use crate::texts;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
