@@ -1,7 +1,8 @@
 //! Chores of the repository.
 //!
 //!     cargo xtask test             every test
-//!     cargo xtask python           the Python package: its wheel built, and tested
+//!     cargo xtask python           tests of the Python package alone
+//!     cargo xtask wheel            the Python package as it is given to people, tried in a fresh environment
 //!     cargo xtask check            formatting, lints, documentation
 //!     cargo xtask pictures [NAME...]
 //!                                  the pictures of README.md and scenes/, all or those of these names
@@ -17,7 +18,7 @@ mod python;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
-const USAGE: &str = "usage: cargo xtask test | python | check | pictures [NAME...] | campaign NAME | fuzz [TARGET] \
+const USAGE: &str = "usage: cargo xtask test | python | wheel | check | pictures [NAME...] | campaign NAME | fuzz [TARGET] \
      | sky-data FOLDER | earth-data FOLDER";
 
 fn main() -> ExitCode {
@@ -25,7 +26,8 @@ fn main() -> ExitCode {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     let outcome = match words[..] {
         ["test"] => test(),
-        ["python"] => python::environment().and_then(|python| python::test(&python)),
+        ["python"] => python::test(),
+        ["wheel"] => python::wheel(),
         ["check"] => check(),
         ["pictures" | "campaign" | "fuzz" | "sky-data" | "earth-data", ..] => chores(&words),
         _ => Err(USAGE.to_owned()),
@@ -57,10 +59,9 @@ fn test() -> Result<(), String> {
     if let Err(fault) = &python {
         eprintln!("xtask: {fault}; tests that need Python are skipped");
     }
-    let path = python.as_ref().map(|path| path.to_string_lossy().into_owned());
+    let path = python.map(|path| path.to_string_lossy().into_owned()).ok();
     let environment: Vec<_> = path.iter().map(|path| ("KERRSCOPE_TEST_PYTHON", path.as_str())).collect();
-    cargo(&["test", "--workspace", "--locked"], &environment)?;
-    python.map_or(Ok(()), |python| python::test(&python))
+    cargo(&["test", "--workspace", "--locked"], &environment)
 }
 
 fn check() -> Result<(), String> {

@@ -20,40 +20,45 @@ pub fn environment() -> Result<PathBuf, String> {
     if std::fs::read_to_string(&stamp).is_ok_and(|made| made == wanted) {
         return Ok(python);
     }
-    let made = run(Path::new("python3"), &["-m", "venv", &folder.to_string_lossy()], &[]).and_then(|()| {
-        let [ours, package] = REQUIREMENTS;
-        run(&python, &["-m", "pip", "install", "-q", "-r", ours, "-r", package], &[])
-    });
-    made.map_err(|e| format!("no Python environment can be made: {e}"))?;
+    let [ours, package] = REQUIREMENTS;
+    make(&folder)
+        .and_then(|()| run(&python, &["-m", "pip", "install", "-q", "-r", ours, "-r", package], &[]))
+        .map_err(|e| format!("no Python environment can be made: {e}"))?;
     std::fs::write(&stamp, wanted).map_err(|e| format!("{}: {e}", stamp.display()))?;
     Ok(python)
 }
 
-/// Builds the package's wheel, installs it, and runs its tests. The wheel is built as
-/// tests are (`dev`), whose libraries are there already.
-pub fn test(python: &Path) -> Result<(), String> {
-    let folder = root().join("target/python");
+fn make(folder: &Path) -> Result<(), String> {
+    run(Path::new("python3"), &["-m", "venv", "--clear", &folder.to_string_lossy()], &[])
+}
+
+/// The package's tests alone, as `cargo xtask test` builds and runs them among the others: with the features that the whole workspace asks
+/// of its dependencies, so that nothing is compiled twice.
+pub fn test() -> Result<(), String> {
+    let python = environment()?;
+    let environment = [("KERRSCOPE_TEST_PYTHON", &*python.to_string_lossy())];
+    // Tests of the program bring the program, with which the package is compared.
+    cargo(&["test", "--workspace", "--locked", "--no-run", "--quiet", "--test", "numbers"], &[])?;
+    cargo(
+        &["test", "--workspace", "--locked", "--quiet", "--test", "package", "--", "--nocapture"],
+        &environment,
+    )
+}
+
+/// Builds the wheel that is given to people, and runs the README's lines with it in a fresh environment, where numpy is all that comes
+/// along.
+pub fn wheel() -> Result<(), String> {
+    let tools = environment()?;
     let wheels = root().join("target/wheels");
-    // One wheel, so that it has no other beside it.
+    // One wheel, so that there is no other beside it.
     let _ = std::fs::remove_dir_all(&wheels);
-    let maturin = program(&folder, "maturin");
-    let manifest = "crates/python/Cargo.toml";
     let out = wheels.to_string_lossy();
+    let manifest = "crates/python/Cargo.toml";
+    let maturin = program(&root().join("target/python"), "maturin");
+    let interpreter = tools.to_string_lossy();
     run(
         &maturin,
-        &[
-            "build",
-            "--quiet",
-            "--profile",
-            "dev",
-            "--locked",
-            "--manifest-path",
-            manifest,
-            "--interpreter",
-            &python.to_string_lossy(),
-            "--out",
-            &out,
-        ],
+        &["build", "--release", "--locked", "-m", manifest, "-i", &interpreter, "--out", &out],
         &[],
     )?;
     let wheel = std::fs::read_dir(&wheels)
@@ -61,14 +66,25 @@ pub fn test(python: &Path) -> Result<(), String> {
         .map_err(|e| format!("{out}: {e}"))?
         .ok_or_else(|| format!("{out} holds no wheel"))?
         .path();
-    let wheel = wheel.to_string_lossy();
-    run(python, &["-m", "pip", "install", "-q", "--no-deps", "--force-reinstall", &wheel], &[])?;
-    // What the package says is compared with what the program says.
-    cargo(&["build", "--quiet", "--package", "kerrscope-cli", "--locked"], &[])?;
-    let kerrscope =
-        root().join("target/debug").join(if cfg!(windows) { "kerrscope.exe" } else { "kerrscope" });
-    let environment = [("KERRSCOPE_PROGRAM", &*kerrscope.to_string_lossy())];
-    run(python, &["-m", "pytest", "-p", "no:cacheprovider", "crates/python/tests"], &environment)
+    let folder = root().join("target/python-fresh");
+    make(&folder)?;
+    let python = program(&folder, "python");
+    run(&python, &["-m", "pip", "install", "-q", &wheel.to_string_lossy()], &[])?;
+    let readme = std::fs::read_to_string(root().join("README.md")).map_err(|e| format!("README.md: {e}"))?;
+    let lines = readme
+        .split_once("```python\n")
+        .and_then(|(_, rest)| rest.split_once("```"))
+        .map(|(lines, _)| lines)
+        .ok_or("README.md has no lines in Python")?;
+    let script = folder.join("readme.py");
+    // The picture goes where the environment is.
+    let program = format!(
+        "import os, sys\nos.chdir(sys.prefix)\n{lines}\nassert os.path.getsize('hole.png') > 10_000\nprint(image)\n"
+    );
+    std::fs::write(&script, program).map_err(|e| format!("{}: {e}", script.display()))?;
+    // No browser: what shows pictures is told to do nothing.
+    run(&python, &[&script.to_string_lossy()], &[("BROWSER", "true")])?;
+    run(&python, &["-m", "pip", "list", "--format", "freeze"], &[])
 }
 
 /// A program of an environment.

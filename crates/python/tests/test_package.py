@@ -67,8 +67,12 @@ def test_types_are_right(tmp_path):
     )
     (tmp_path / "uses.py").write_text(program)
     words = ["-m", "mypy", "--strict", "--ignore-missing-imports", "--cache-dir", tmp_path / "cache"]
+    environment = dict(os.environ)
+    if "site-packages" not in str(FOLDER):
+        environment["MYPYPATH"] = str(FOLDER.parent)
     for what in (["-p", "kerrscope"], [tmp_path / "uses.py"]):
-        done = subprocess.run([sys.executable, *words, *what], capture_output=True, text=True, cwd=tmp_path)
+        command = [sys.executable, *words, *what]
+        done = subprocess.run(command, capture_output=True, text=True, cwd=tmp_path, env=environment)
         assert done.returncode == 0, done.stdout
 
 
