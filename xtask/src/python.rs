@@ -38,7 +38,7 @@ pub fn test() -> Result<(), String> {
     let python = environment()?;
     let environment = [("KERRSCOPE_TEST_PYTHON", &*python.to_string_lossy())];
     // Tests of the program bring the program, with which the package is compared.
-    cargo(&["test", "--workspace", "--locked", "--no-run", "--quiet", "--test", "numbers"], &[])?;
+    cargo(&["test", "--workspace", "--locked", "--no-run", "--quiet", "--test", "all"], &[])?;
     cargo(
         &["test", "--workspace", "--locked", "--quiet", "--test", "package", "--", "--nocapture"],
         &environment,

@@ -8,17 +8,14 @@
 
 // One of the tests of the tracer; not all of it is used here.
 #[allow(dead_code)]
-#[path = "../../../spacetime/tests/all/common/orbit.rs"]
-mod orbit;
-
 use std::f64::consts::{PI, TAU};
 use std::path::Path;
 
+use crate::orbit::Orbit;
 use image::{Rgb, RgbImage};
 use kerrscope::render::{Film, Replay, Stage, Tally, Watch, draw};
 use kerrscope::scene::file::{Sky, SkyKind};
 use kerrscope::scene::{Scene, SceneFile};
-use orbit::Orbit;
 
 /// The impact parameter of the photon orbit.
 const CRITICAL: f64 = 5.196152422706632;

@@ -20,6 +20,8 @@ mod metric_faults;
 mod objects_curved;
 mod objects_flat;
 mod objects_lens;
+#[path = "../../../spacetime/tests/all/common/orbit.rs"]
+mod orbit;
 mod output;
 mod output_file;
 mod physical_disk;

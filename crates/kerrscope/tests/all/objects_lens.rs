@@ -6,16 +6,13 @@
 
 // One of the tests of the tracer; not all of it is used here.
 #[allow(dead_code)]
-#[path = "../../../spacetime/tests/all/common/orbit.rs"]
-mod orbit;
-
 use crate::common;
 
 use std::f64::consts::PI;
 
+use crate::orbit::Orbit;
 use common::{ray, stage};
 use kerrscope::render::Stage;
-use orbit::Orbit;
 
 const OBSERVER: f64 = 30.0;
 const SOURCE: f64 = 20.0;
