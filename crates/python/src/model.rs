@@ -46,6 +46,9 @@ type Told1 = (&'static str, &'static str, &'static str, [f64; 2], Option<f64>);
 /// The most pixels of a picture that is predicted.
 const MOST: usize = 1 << 24;
 
+/// An array of Python's.
+type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
+
 #[pymethods]
 impl Model {
     /// Of a name, for pictures of a width and a height.
@@ -91,7 +94,7 @@ impl Model {
         values: Vec<f64>,
         derivatives: bool,
         threads: Option<usize>,
-    ) -> PyResult<(Bound<'py, PyArrayDyn<f64>>, Option<Bound<'py, PyArrayDyn<f64>>>)> {
+    ) -> PyResult<(Array<'py>, Option<Array<'py>>)> {
         let parameters = self.model.parameters();
         if values.len() != parameters.len() {
             return Err(wrong(format!("{} values are not {}", values.len(), parameters.len())));

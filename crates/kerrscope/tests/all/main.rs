@@ -20,6 +20,8 @@ mod metric_faults;
 mod objects_curved;
 mod objects_flat;
 mod objects_lens;
+// Tests here use a part of it.
+#[allow(dead_code)]
 #[path = "../../../spacetime/tests/all/common/orbit.rs"]
 mod orbit;
 mod output;
