@@ -34,6 +34,11 @@ const WARM: [usize; 3] = [20, 30, 20];
 /// The share of leaps of the last of these rounds that have to succeed: where fewer do, chains stay long in the tails.
 const LEAPING: f64 = 0.3;
 
+/// As long as fewer than this share succeed, all draws so far shape the next round's, up to this round: proposals that are functions of
+/// earlier rounds leave what is drawn from as it is.
+const GOOD: f64 = 0.5;
+const SHAPED: usize = 10;
+
 /// Below this share of them, the draws' covariance is none to go on with.
 const STUCK: f64 = 0.1;
 
@@ -74,6 +79,8 @@ pub struct Chains {
     trajectories: bool,
     /// Rounds done, those that are not kept among them.
     pub rounds: u64,
+    /// Draws that leaps are shaped by.
+    gathered: Vec<Vec<f64>>,
 }
 
 impl Chains {
@@ -122,7 +129,7 @@ impl<S: Source> Field<'_, S> {
                 None
             })
             .collect();
-        Some(Chains { metric, members: chains?, trajectories: false, rounds: 0 })
+        Some(Chains { metric, members: chains?, trajectories: false, rounds: 0, gathered: Vec::new() })
     }
 
     /// A mode, by its weight.
@@ -184,19 +191,30 @@ impl<S: Source> Field<'_, S> {
             }
             places
         };
-        if round + 1 == TRIED.len() {
-            let [tried, accepted] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
-            let share = accepted as f64 / tried as f64;
-            chains.trajectories = share < LEAPING;
-            // Draws that hardly moved have no shape.
-            if share < STUCK
-                && let Some(mode) = self.modes.first()
-            {
-                Self::change(&mut chains, Metric::around(mode));
+        let [tried, accepted] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
+        let share = accepted as f64 / tried.max(1) as f64;
+        if trajectories {
+            if round == TRIED.len() + 1 {
+                let next = metric.shaped_by(&places());
+                Self::change(&mut chains, next);
             }
-        } else if round + 1 < TRIED.len() || (trajectories && round == TRIED.len() + 1) {
+        } else if round == 0 {
+            // Chains began wide: what comes now is a first shape alone.
             let next = metric.shaped_by(&places());
             Self::change(&mut chains, next);
+        } else {
+            chains.trajectories = round + 1 == TRIED.len() && share < LEAPING;
+            if chains.trajectories
+                && share < STUCK
+                && let Some(mode) = self.modes.first()
+            {
+                // Draws that hardly moved have no shape.
+                Self::change(&mut chains, Metric::around(mode));
+            } else if round < SHAPED && (round + 1 < TRIED.len() || share < GOOD) {
+                chains.gathered.extend(places());
+                let next = metric.shaped_by(&chains.gathered);
+                Self::change(&mut chains, next);
+            }
         }
         if warm.is_some() {
             for d in &mut draws {

@@ -50,7 +50,18 @@ impl Plan {
     /// The plan of one task.
     fn only(&self, number: usize) -> PyResult<Self> {
         let tasks = vec![self.task(number)?.clone()];
-        Ok(Self { plan: survey::Plan { tasks, ..self.plan.clone() } })
+        // Not a copy of the whole plan, which may have a million tasks.
+        let survey::Plan { program, instruction_level, folder, scene, keys, tasks: _ } = &self.plan;
+        Ok(Self {
+            plan: survey::Plan {
+                program: program.clone(),
+                instruction_level: instruction_level.clone(),
+                folder: folder.clone(),
+                scene: scene.clone(),
+                keys: keys.clone(),
+                tasks,
+            },
+        })
     }
 
     /// The keys that vary.

@@ -16,14 +16,20 @@ const SCENE: &str =
 
 const OUTPUT: [&str; 5] = ["render", "scene.toml", "-o", "a.exr", "--resume"];
 
-/// Starts a render and kills it after some time; whether it was still at work.
-fn killed_after(folder: &Path, milliseconds: u64) -> bool {
+/// Starts a render and kills it as soon as it has kept more than was there; whether it was still at work.
+fn killed(folder: &Path) -> bool {
+    let kept = || fs::metadata(folder.join("a.exr.checkpoint")).map_or(0, |about| about.len());
+    let before = kept();
     let mut child = program(folder, &OUTPUT).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
-    std::thread::sleep(Duration::from_millis(milliseconds));
-    let killed = child.try_wait().unwrap().is_none();
+    while kept() <= before {
+        if child.try_wait().unwrap().is_some() {
+            return false;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+    }
     child.kill().unwrap();
     child.wait().unwrap();
-    killed
+    true
 }
 
 #[test]
@@ -37,7 +43,7 @@ fn killed_it_goes_on_to_the_same_bytes() {
     fs::remove_file(path.join("a.exr")).unwrap();
     // Killed over and over, it gets on: each time at least half a second of work is kept.
     let mut kills = 0;
-    while kills < 20 && killed_after(path, 800) {
+    while kills < 20 && killed(path) {
         assert!(!path.join("a.exr").exists(), "no half-written file");
         kills += 1;
     }
@@ -53,7 +59,7 @@ fn a_checkpoint_of_another_scene_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     fs::write(path.join("scene.toml"), SCENE).unwrap();
-    assert!(killed_after(path, 800));
+    assert!(killed(path));
     let before = fs::read(path.join("a.exr.checkpoint")).unwrap();
     let other = [&OUTPUT[..], &["--set", "spacetime.spin=0.5"]].concat();
     let output = run(path, &other);
