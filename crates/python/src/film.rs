@@ -20,7 +20,7 @@ use crate::work::{self, Told};
 pub struct Film {
     draft: Draft,
     scene: scene::Scene,
-    film: render::Film,
+    drawn: render::Film,
     made: Provenance,
 }
 
@@ -28,17 +28,17 @@ impl Film {
     /// What was drawn of a scene.
     pub fn new(draft: Draft, scene: scene::Scene, film: render::Film) -> Self {
         let made = Provenance::of(&scene, &film);
-        Self { draft, scene, film, made }
+        Self { draft, scene, drawn: film, made }
     }
 
     /// What files hold of it.
     pub fn images(&self) -> ImageSet<'_> {
-        ImageSet::of(&self.scene, &self.film)
+        ImageSet::of(&self.scene, &self.drawn)
     }
 
     /// The film itself.
     pub fn film(&self) -> &render::Film {
-        &self.film
+        &self.drawn
     }
 
     /// The angle of M on the sky, µas.
@@ -47,7 +47,7 @@ impl Film {
     }
 
     fn shape(&self) -> [usize; 2] {
-        [self.film.height, self.film.width].map(|edge| edge as usize)
+        [self.drawn.height, self.drawn.width].map(|edge| edge as usize)
     }
 }
 
@@ -61,7 +61,7 @@ impl Film {
     fn open(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
         let saved = work::run(py, None, &Told::Nothing, |_| Saved::open(&path))?;
         let Saved { draft, scene, film, provenance } = saved.map_err(|error| faults::saved(&error))?;
-        Ok(Self { draft, scene, film, made: provenance })
+        Ok(Self { draft, scene, drawn: film, made: provenance })
     }
 
     /// The scene.
@@ -79,13 +79,13 @@ impl Film {
     /// Linear light, height × width × 3.
     fn light<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArrayDyn<f32>>> {
         let [height, width] = self.shape();
-        shaped(py, self.film.light.as_flattened().to_vec(), &[height, width, 3])
+        shaped(py, self.drawn.light.as_flattened().to_vec(), &[height, width, 3])
     }
 
     /// The physical intensity, if there is one.
     fn intensity<'py>(&self, py: Python<'py>) -> PyResult<Option<Named<'py, f64>>> {
         let Some(image) = self.images().intensity() else { return Ok(None) };
-        let values = (0..self.film.light.len()).map(|pixel| image.value(pixel)).collect();
+        let values = (0..self.drawn.light.len()).map(|pixel| image.value(pixel)).collect();
         let array = shaped(py, values, &self.shape())?;
         Ok(Some((image.name.into_owned(), image.title, image.unit, array)))
     }
@@ -97,7 +97,7 @@ impl Film {
             let array = shaped(py, plane.values.clone(), &self.shape())?;
             Ok((channel.name().into_owned(), channel.title(), channel.layer.unit(), array))
         };
-        self.film.planes.iter().map(layer).collect()
+        self.drawn.planes.iter().map(layer).collect()
     }
 
     /// The record of how it was made.
@@ -108,7 +108,7 @@ impl Film {
 
     /// What is known of it, by names as in `kerrscope render --format json`.
     fn about<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let (images, tally, units) = (self.images(), &self.film.tally, self.scene.units);
+        let (images, tally, units) = (self.images(), &self.drawn.tally, self.scene.units);
         let theta = units.microarcseconds();
         let pixel = images.pixel();
         let moments = pixel.and_then(|pixel| images.moments(pixel * theta.unwrap_or(1.0)));
@@ -134,7 +134,7 @@ impl Film {
         dict.set_item("length_unit", if theta.is_some() { "uas" } else { "M" })?;
         dict.set_item(
             "radiance",
-            self.film.radiance.map(|radiance| match radiance {
+            self.drawn.radiance.map(|radiance| match radiance {
                 Radiance::Specific => "specific",
                 Radiance::Bolometric => "bolometric",
             }),
@@ -152,7 +152,7 @@ impl Film {
         let encode = || {
             let mut bytes = Vec::new();
             let display = &self.scene.display;
-            png::encode(&mut bytes, &display.picture(&self.film), display.depth, &self.made).map(|()| bytes)
+            png::encode(&mut bytes, &display.picture(&self.drawn), display.depth, &self.made).map(|()| bytes)
         };
         let bytes = work::run(py, None, &Told::Nothing, |_| encode())?.map_err(PyErr::from)?;
         Ok(PyBytes::new(py, &bytes))
@@ -166,7 +166,7 @@ impl Film {
                 "{path}: pictures can be written as .png, .exr, .fits or .h5"
             )));
         };
-        work::run(py, None, &Told::Nothing, |_| format.write(&path, &self.scene, &self.film))?
+        work::run(py, None, &Told::Nothing, |_| format.write(&path, &self.scene, &self.drawn))?
             .map_err(|error| faults::file(&error))
     }
 }

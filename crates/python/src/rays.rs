@@ -124,7 +124,7 @@ fn put(place: &mut [f64], at: usize, number: f64) {
 }
 
 /// Cuts places into the parts of batches.
-fn parts<'a>(places: Places<'a>, count: usize, orders: usize) -> Vec<Part<'a>> {
+fn parts(places: Places<'_>, count: usize, orders: usize) -> Vec<Part<'_>> {
     let mut rest = places;
     let mut parts = Vec::with_capacity(count.div_ceil(BATCH));
     for first in (0..count).step_by(BATCH) {
