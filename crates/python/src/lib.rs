@@ -3,7 +3,10 @@
 //! The package's own modules (`python/kerrscope`) are what people import; this one takes and gives plain numbers, texts and
 //! arrays. Long work runs without the interpreter's lock, in a pool of threads of its own, and stops at Ctrl-C (`work`).
 
-#![allow(clippy::needless_pass_by_value, reason = "what Python gives arrives owned")]
+#![allow(
+    clippy::needless_pass_by_value,
+    reason = "arguments are taken out of Python's values: no one else has them"
+)]
 
 mod arrays;
 mod faults;

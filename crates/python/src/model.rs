@@ -41,13 +41,13 @@ pub struct Model {
 }
 
 /// A parameter: name, unit, meaning, bounds, the value that is usually assumed, if one is.
-type Told1 = (&'static str, &'static str, &'static str, [f64; 2], Option<f64>);
+type Parameter = (&'static str, &'static str, &'static str, [f64; 2], Option<f64>);
+
+/// An array.
+type Numbers<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 /// The most pixels of a picture that is predicted.
 const MOST: usize = 1 << 24;
-
-/// An array of Python's.
-type Array<'py> = Bound<'py, PyArrayDyn<f64>>;
 
 #[pymethods]
 impl Model {
@@ -76,7 +76,7 @@ impl Model {
     }
 
     /// Its parameters, in their order.
-    fn parameters(&self) -> Vec<Told1> {
+    fn parameters(&self) -> Vec<Parameter> {
         let told = |p: &kerrscope_fit::model::Parameter| {
             let usual = match p.usual {
                 Freedom::Fixed(value) => Some(value),
@@ -94,7 +94,7 @@ impl Model {
         values: Vec<f64>,
         derivatives: bool,
         threads: Option<usize>,
-    ) -> PyResult<(Array<'py>, Option<Array<'py>>)> {
+    ) -> PyResult<(Numbers<'py>, Option<Numbers<'py>>)> {
         let parameters = self.model.parameters();
         if values.len() != parameters.len() {
             return Err(wrong(format!("{} values are not {}", values.len(), parameters.len())));

@@ -25,7 +25,9 @@ impl Scene {
     ///
     /// # Errors
     /// `ValueError` with everything that is wrong.
-    pub fn of(draft: Draft) -> PyResult<Self> {
+    pub fn of(mut draft: Draft) -> PyResult<Self> {
+        // A scene that is pickled is read in another process, whose current folder may be another one.
+        draft.folder = std::env::current_dir()?.join(&draft.folder);
         let scene = work::shortly(|| draft.scene())?.map_err(|faults| faults::scene(&faults))?;
         Ok(Self { draft, scene })
     }

@@ -86,12 +86,16 @@ def test_any_text_is_a_value(text):
     assert of == {"of": [text, True, 3, -0.5, float("inf"), [0, 1]], text: 2.0}
 
 
-def test_pickles_and_copies(tmp_path):
+def test_pickles_and_copies(tmp_path, monkeypatch):
     (tmp_path / "metric.toml").write_text(
         'coordinates = ["t", "x", "y", "z"]\nmetric = { tt = "-1", xx = "1", yy = "1", zz = "1" }'
     )
     text = 'spacetime = { name = "text", file = "metric.toml" }\ndisk.model = "none"\nrender.engine = "integrator"'
-    scene = Scene.from_toml(text, tmp_path).replace(**{"render.width": 10})
+    monkeypatch.chdir(tmp_path)
+    scene = Scene.from_toml(text).replace(**{"render.width": 10})
+    assert scene == Scene.from_toml(text, tmp_path).replace(**{"render.width": 10})
+    (tmp_path / "elsewhere").mkdir()
+    monkeypatch.chdir(tmp_path / "elsewhere")
     for other in (pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)):
         assert other == scene and hash(other) == hash(scene)
         assert other.replace(**{"render.height": 4}).size == (10, 4)
