@@ -1,0 +1,116 @@
+//! The live page: its files, and pictures of scenes as fast as they can be drawn.
+//!
+//! A client is one WebSocket. It sends what it wants to see, whole, as JSON ([`asked`]); what it gets back is frames
+//! ([`frame`]), coarse to fine, and facts and faults as JSON. Asynchronous threads only pass messages on: each client has a
+//! thread of its own ([`painter`]) that draws in a pool which all share. No message names a file: scenes are that of the
+//! command line, those shipped with the program, and keys set in them, of which those that hold paths are refused ([`stock`]).
+
+mod asked;
+mod assets;
+mod client;
+mod desk;
+mod facts;
+mod frame;
+mod guard;
+mod pace;
+mod painter;
+mod stock;
+
+pub use guard::Guard;
+pub use stock::Stock;
+
+use std::io;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use axum::Router;
+use axum::extract::State;
+use axum::extract::ws::WebSocketUpgrade;
+use axum::http::StatusCode;
+use axum::middleware;
+use axum::response::{IntoResponse, Response};
+use axum::routing::get;
+use kerrscope::render::Props;
+use rayon::ThreadPool;
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+
+/// Clients at a time. A page has one, and one more while it compares.
+const CLIENTS: usize = 16;
+
+/// The largest message of a client, in bytes.
+const MESSAGE: usize = 64 << 10;
+
+/// How often the wish to stop is looked for.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// What all clients share.
+pub struct House {
+    guard: Guard,
+    stock: Stock,
+    pool: ThreadPool,
+    props: Props,
+    seats: Arc<Semaphore>,
+}
+
+/// Serves until asked to stop; `ready` is told the address once there is one.
+///
+/// # Errors
+/// If the address cannot be had, or there are no threads.
+pub fn serve(
+    host: IpAddr,
+    port: u16,
+    token: Option<String>,
+    stock: Stock,
+    pool: ThreadPool,
+    stop: &AtomicBool,
+    ready: impl FnOnce(&str) -> io::Result<()>,
+) -> io::Result<()> {
+    let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build()?;
+    let outcome = runtime.block_on(async {
+        let listener = TcpListener::bind(SocketAddr::new(host, port)).await?;
+        let guard = Guard::new(listener.local_addr()?, token);
+        let address = guard.address();
+        let house =
+            Arc::new(House { guard, stock, pool, props: Props::default(), seats: Arc::new(Semaphore::new(CLIENTS)) });
+        ready(&address)?;
+        tokio::select! {
+            served = axum::serve(listener, router(house)) => served,
+            () = wish(stop) => Ok(()),
+        }
+    });
+    // Painters end with their clients, and these with the runtime.
+    runtime.shutdown_timeout(Duration::from_millis(500));
+    outcome
+}
+
+async fn wish(stop: &AtomicBool) {
+    while !stop.load(Ordering::Relaxed) {
+        tokio::time::sleep(PATIENCE).await;
+    }
+}
+
+fn router(house: Arc<House>) -> Router {
+    let mut router = Router::new().route("/socket", get(socket));
+    for asset in assets::ALL {
+        router = router.route(asset.path, get(move || async move { asset.response() }));
+    }
+    router
+        .fallback(|| async { (StatusCode::NOT_FOUND, "there is no such page\n") })
+        .layer(middleware::from_fn_with_state(Arc::clone(&house), guard::check))
+        .with_state(house)
+}
+
+async fn socket(State(house): State<Arc<House>>, upgrade: WebSocketUpgrade) -> Response {
+    let Ok(seat) = Arc::clone(&house.seats).try_acquire_owned() else {
+        let words = "as many pages are open as this program serves: close one\n";
+        return (StatusCode::SERVICE_UNAVAILABLE, words).into_response();
+    };
+    let upgrade = upgrade.max_message_size(MESSAGE).max_frame_size(MESSAGE);
+    upgrade.on_upgrade(move |socket| async move {
+        client::serve(socket, house).await;
+        drop(seat);
+    })
+}
