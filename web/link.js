@@ -20,11 +20,13 @@
  * @property {[number, number]} size
  * @property {number} samples
  * @property {boolean} moving
+ * @property {string[]} overlays
  *
  * @typedef {object} Listener
  * @property {(frame: Frame) => void} frame
  * @property {(kind: string, content: any) => void} notice
  * @property {(open: boolean) => void} open
+ * @property {(generation: number, bytes: ArrayBuffer) => void} file
  */
 
 /** @param {ArrayBuffer} bytes @returns {Frame | null} */
@@ -114,9 +116,21 @@ export class Link {
     this.answered = false;
   }
 
+  /** Sends another message at once. @param {Record<string, any>} message @returns {boolean} whether there is a connection */
+  send(message) {
+    if (this.socket?.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(JSON.stringify(message));
+    return true;
+  }
+
   /** @param {string | ArrayBuffer} data */
   receive(data) {
     if (typeof data !== "string") {
+      // "KSV1": a file.
+      if (data.byteLength >= 8 && new DataView(data).getUint32(0) === 0x4b535631) {
+        this.listener.file(new DataView(data).getUint32(4, true), data.slice(8));
+        return;
+      }
       const frame = decode(data);
       if (!frame) return;
       if (frame.generation === this.generation) this.answered = true;

@@ -1,10 +1,12 @@
 // The page: a picture, what is set, and what is seen.
 
 import { hands } from "./hands.js";
-import { Link } from "./link.js";
 import { Panel, make } from "./panel.js";
+import { Picture } from "./picture.js";
+import { showRay } from "./ray.js";
 import { readouts, status } from "./readouts.js";
-import { DISKLESS, PRESETS, SETTINGS, at } from "./settings.js";
+import { Saver } from "./save.js";
+import { BESIDE, DISKLESS, LINES, PRESETS, SETTINGS, at } from "./settings.js";
 import { Course, read, written } from "./state.js";
 
 /** @template {HTMLElement} T @param {string} id @param {new () => T} kind @returns {T} */
@@ -27,9 +29,6 @@ const redo = element("redo", HTMLButtonElement);
 /** Pixels of the whole picture at most. */
 const MOST_PIXELS = 1920 * 1200;
 
-/** Rays in each pixel of the finished picture. */
-const SAMPLES = 4;
-
 const course = new Course(read(location.hash));
 /** The scene as the server knows it. @type {any} */
 let scene = null;
@@ -38,17 +37,12 @@ let place = null;
 /** Times of the last frames, for their rate. @type {number[]} */
 let times = [];
 
-const context = canvas.getContext("2d", { alpha: false });
-const buffer = document.createElement("canvas");
-const bufferContext = buffer.getContext("2d", { alpha: false });
-
 /** What tests ask for. */
 const seen = { frames: 0, last: 0, firstFrame: 0, opened: 0, lastTime: 0, asked: 0, width: 0, moving: 0 };
 Object.assign(window, { kerrscope: seen });
 
-const link = new Link({
+const picture = new Picture(canvas, element("lines", HTMLCanvasElement), {
   frame: (frame) => {
-    if (!context || !bufferContext) return;
     const now = performance.now();
     if (seen.frames === 0) seen.firstFrame = now;
     seen.frames += 1;
@@ -59,26 +53,7 @@ const link = new Link({
     } else {
       seen.moving += 1;
     }
-    const [width, height] = frame.wanted;
-    if (frame.width >= width) {
-      canvas.width = frame.width;
-      canvas.height = frame.height;
-      context.putImageData(frame.image, 0, 0);
-    } else {
-      buffer.width = frame.width;
-      buffer.height = frame.height;
-      bufferContext.putImageData(frame.image, 0, 0);
-      if (canvas.width !== width || canvas.height !== height) {
-        canvas.width = width;
-        canvas.height = height;
-      }
-      context.imageSmoothingEnabled = true;
-      context.imageSmoothingQuality = "high";
-      context.drawImage(buffer, 0, 0, canvas.width, canvas.height);
-    }
     times = [...times.filter((time) => now - time < 1000), now];
-    canvas.dataset.generation = String(frame.generation);
-    canvas.dataset.last = String(frame.last);
     line.textContent = status(frame, frame.last ? 0 : times.length);
   },
   notice: (kind, content) => {
@@ -87,7 +62,13 @@ const link = new Link({
       place = { ...content.place, distance: content.place.distance ?? Infinity };
       faults.hidden = true;
       readouts(list, content);
-      panel.show(scene, course.look.set);
+      display();
+    } else if (kind === "ray") {
+      showRay(element("ray", HTMLElement), content, size());
+    } else if (kind === "progress") {
+      saver.progress(content);
+    } else if (kind === "unsaved") {
+      saver.failed(content.faults);
     } else {
       complain(kind === "faults" ? content.faults : [{ place: "", message: String(content), help: "" }]);
     }
@@ -96,7 +77,24 @@ const link = new Link({
     if (open) seen.opened = performance.now();
     line.textContent = open ? "Connected" : "The program is gone; waiting for it …";
   },
+  file: (_, bytes) => saver.done(bytes),
 });
+
+const saver = new Saver(
+  element("saver", HTMLDialogElement),
+  ({ format, size: [width, height], samples }) => {
+    const view = { ...wish(false), generation: 0, size: [width, height], samples, overlays: [] };
+    if (!picture.link.send({ kind: "save", view, format })) saver.failed([{ message: "the program is gone", help: "start it again" }]);
+  },
+  () => picture.link.send({ kind: "stop" }),
+  () => size(),
+);
+
+/** Shows the values of settings. */
+function display() {
+  const page = Object.fromEntries(Object.entries(own(course.look.set, true)).map(([key, value]) => [key.slice(5), value]));
+  panel.show({ ...scene, page }, course.look.set);
+}
 
 /** @param {{ place: string, message: string, help: string }[]} found */
 function complain(found) {
@@ -118,37 +116,85 @@ function size() {
   return [Math.round(width * scale), Math.round(height * scale)];
 }
 
-/** The keys to be set: those that have a meaning beside the others; null for those of the base that have none. */
-function keys() {
-  const { base, set } = course.look;
+/** The keys to be set. @param {Record<string, any>} set @returns {Record<string, any>} */
+function keys(set) {
+  const asked = Object.fromEntries(Object.entries(set).filter(([key]) => !key.startsWith("page.")));
+  const placed = ["observer.distance", "observer.inclination", "observer.azimuth"].some((key) => key in set);
+  if (placed) asked["observer.position"] = null;
+  return asked;
+}
+
+/** Takes keys out that have no meaning beside the others, and those of the base too. @param {Record<string, any>} set */
+function prune(set) {
+  if (!scene) return set;
   /** @type {any} */
-  const would = structuredClone(scene ?? {});
+  const would = structuredClone(scene);
   for (const [key, value] of Object.entries(set)) {
     const names = key.split(".");
     const last = names.pop() ?? "";
     const table = names.reduce((within, name) => (within[name] ??= {}), would);
-    table[last] = value;
+    table[last] = value ?? undefined;
   }
   /** @type {Record<string, any>} */
-  const asked = { ...set };
-  // Several may share a key, each with a meaning in other scenes.
-  const known = new Set(SETTINGS.map(({ key }) => key));
-  for (const key of known) {
+  const left = { ...set };
+  // Several settings may share a key, each with a meaning in other scenes.
+  for (const key of new Set(SETTINGS.map((setting) => setting.key))) {
     const some = SETTINGS.filter((setting) => setting.key === key);
-    if (!scene || some.some(({ when }) => when?.(would) ?? true)) continue;
-    delete asked[key];
-    if (base !== "built-in") asked[key] = null;
+    if (key.startsWith("page.") || some.some(({ when }) => when?.(would) ?? true)) continue;
+    delete left[key];
+    if (course.look.base !== "built-in" && at(scene, key) !== undefined) left[key] = null;
   }
-  if (["observer.distance", "observer.inclination", "observer.azimuth"].some((key) => key in set)) asked["observer.position"] = null;
-  return asked;
+  return left;
+}
+
+/** What is wished for. @param {boolean} moving @returns {import("./link.js").Wish} */
+function wish(moving) {
+  const { base, set } = course.look;
+  const overlays = LINES.filter((name) => set[`page.${name}`] === true);
+  return { base, set: keys(set), size: size(), samples: Number(set["page.samples"] ?? 4), moving, overlays };
 }
 
 /** Asks for the picture. @param {boolean} moving */
 function ask(moving) {
-  const { base } = course.look;
   seen.asked = performance.now();
-  link.ask({ base, set: keys(), size: size(), samples: SAMPLES, moving });
+  const wished = wish(moving);
+  picture.ask(wished);
+  compare(wished);
 }
+
+/** The picture beside it, while there is one. @type {Picture | null} */
+let other = null;
+
+/** @param {import("./link.js").Wish} wished */
+function compare(wished) {
+  const { set } = course.look;
+  const how = BESIDE[set["page.compare"]];
+  const [beside, split] = [element("beside", HTMLElement), element("split", HTMLElement)];
+  beside.hidden = split.hidden = !how;
+  if (!how) {
+    other?.close();
+    other = null;
+    return;
+  }
+  const ignored = () => {};
+  other ??= new Picture(element("other", HTMLCanvasElement), element("other-lines", HTMLCanvasElement), {
+    frame: ignored, open: ignored, file: ignored,
+    notice: (kind, content) => {
+      if (kind === "faults") complain(content.faults);
+    },
+  });
+  /** @type {Record<string, any>} */
+  const differing = set["page.compare"] === "counter" ? { "spacetime.spin": -Number(set["spacetime.spin"] ?? at(scene ?? {}, "spacetime.spin") ?? 0.99) } : how;
+  other.ask({ ...wished, set: keys(prune({ ...set, ...differing })) });
+}
+
+const slider = element("slider", HTMLInputElement);
+const slide = () => (element("beside", HTMLElement).style.clipPath = `inset(0 0 0 ${slider.value}%)`);
+slider.oninput = slide;
+slide();
+
+/** Those settings that are the page's, or those that are not. @param {Record<string, any>} set @param {boolean} page */
+const own = (set, page) => Object.fromEntries(Object.entries(set).filter(([key]) => key.startsWith("page.") === page));
 
 /** After a change is complete: kept, and in the address. */
 function settle() {
@@ -158,7 +204,7 @@ function settle() {
   undo.disabled = course.before.length === 0;
   redo.disabled = course.after.length === 0;
   const { base, set } = course.look;
-  const known = PRESETS.findIndex((one) => written(one) === written({ base, set }));
+  const known = PRESETS.findIndex((one) => written(one) === written({ base, set: own(set, false) }));
   preset.value = known < 0 ? "own" : String(known);
   ask(false);
 }
@@ -173,6 +219,7 @@ function put(key, value) {
   } else {
     set[key] = value;
   }
+  if (key.startsWith("page.") && value === false) delete set[key];
   if (key === "spacetime.name") {
     for (const other of Object.keys(set)) if (other.startsWith("spacetime.parameters.")) delete set[other];
     if (DISKLESS.includes(value)) set["disk.model"] = "none";
@@ -182,11 +229,13 @@ function put(key, value) {
     delete set["screen.field_of_view"];
     if (value !== "impact" && set["observer.distance"] === "inf") delete set["observer.distance"];
   }
+  course.look.set = prune(set);
 }
 
 const panel = new Panel(element("settings", HTMLFormElement), (key, value, moving) => {
   if (key.startsWith("observer.") && place && scene && at(scene, "observer.position")) stand();
   put(key, value);
+  if (key.startsWith("page.")) display();
   if (moving) ask(true);
   else settle();
 });
@@ -234,7 +283,7 @@ hands(canvas, {
     ask(true);
   },
   rest: settle,
-  point: () => {},
+  point: (x, y) => picture.link.send({ kind: "inspect", view: { ...wish(false), generation: 0, overlays: [] }, at: [x, y] }),
 });
 
 PRESETS.forEach(({ name }, number) => preset.append(make("option", { value: String(number), textContent: name })));
@@ -242,7 +291,7 @@ preset.append(make("option", { value: "own", textContent: "Your own", hidden: tr
 preset.onchange = () => {
   const chosen = PRESETS[Number(preset.value)];
   if (!chosen) return;
-  course.look = { base: chosen.base, set: { ...chosen.set } };
+  course.look = { base: chosen.base, set: { ...chosen.set, ...own(course.look.set, true) } };
   // What the scene before said counts no more.
   scene = null;
   settle();
@@ -257,6 +306,8 @@ function step(back) {
 }
 undo.onclick = () => step(true);
 redo.onclick = () => step(false);
+
+element("save", HTMLButtonElement).onclick = () => saver.open();
 
 element("share", HTMLButtonElement).onclick = async () => {
   try {
@@ -284,6 +335,8 @@ document.addEventListener("keydown", (event) => {
   if (event.key === "/") {
     event.preventDefault();
     search.focus();
+  } else if (event.key === "s" && !element("saver", HTMLDialogElement).open) {
+    saver.open();
   } else if (event.key.toLowerCase() === "u") {
     step(!event.shiftKey);
   }
@@ -301,7 +354,9 @@ window.addEventListener("hashchange", () => {
 let resized;
 new ResizeObserver(() => {
   clearTimeout(resized);
-  resized = setTimeout(() => ask(false), 120);
+  resized = setTimeout(() => {
+    if (picture.link.wish && String(picture.link.wish.size) !== String(size())) ask(false);
+  }, 120);
 }).observe(stage);
 
 settle();

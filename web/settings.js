@@ -201,9 +201,39 @@ export const SETTINGS = [
     choices: [["neutral", "neutral"], ["filmic", "filmic"], ["none", "none"]],
   },
 
+  {
+    key: "page.samples", label: "Rays a pixel", group: "Picture", kind: "choice", usual: 4, words: "samples quality antialiasing",
+    choices: [[1, "1"], [4, "4"], [9, "9"], [16, "16"], [64, "64"]],
+  },
+
+  { key: "page.critical", label: "Edge of the shadow", group: "Lines", kind: "toggle", words: "critical curve overlay" },
+  { key: "page.orders", label: "Between image orders", group: "Lines", kind: "toggle", words: "overlay boundaries" },
+  { key: "page.equator", label: "Grid on the equator", group: "Lines", kind: "toggle", words: "overlay plane radius" },
+  { key: "page.shift", label: "Equal shifts g", group: "Lines", kind: "toggle", words: "overlay redshift contours" },
+  {
+    key: "page.compare", label: "Beside it", group: "Compare", kind: "choice", words: "slider two scenes",
+    choices: [
+      [undefined, "nothing"], ["no-spin", "no spin"], ["fast", "spin 0.99"], ["counter", "the opposite spin"], ["flat", "flat space"],
+      ["no-shift", "no shift of light"], ["shift", "all shifts of light"],
+    ],
+  },
+
   { key: "units.mass", label: "Mass", group: "On the sky", kind: "text", unit: "suns", words: "µas shadow size" },
   { key: "units.distance", label: "Its distance", group: "On the sky", kind: "text", unit: "pc", words: "µas parsec" },
 ];
+
+/** What is shown beside a picture: keys that differ. @type {Record<string, Record<string, any>>} */
+export const BESIDE = {
+  "no-spin": { "spacetime.name": "kerr", "spacetime.spin": 0 },
+  fast: { "spacetime.name": "kerr", "spacetime.spin": 0.99 },
+  counter: {},
+  flat: { "spacetime.name": "minkowski" },
+  "no-shift": { "disk.doppler": false, "disk.gravitational": false, "disk.beaming": false },
+  shift: { "disk.doppler": true, "disk.gravitational": true, "disk.beaming": true },
+};
+
+/** Lines over a picture, by the ends of their keys. */
+export const LINES = ["critical", "orders", "equator", "shift"];
 
 /**
  * A picture to begin with.

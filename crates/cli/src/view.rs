@@ -73,9 +73,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         Ok(())
     };
     let (host, port) = (arguments.host, arguments.port);
-    server::serve(host, port, arguments.token.clone(), Stock::new(draft), pool, stop, ready).map_err(|e| {
-        Failure::Failed(format!("cannot serve at {host}, port {port}: {e}; give another --port, or 0 for any"))
-    })?;
+    server::serve(host, port, arguments.token.clone(), Stock::new(draft), pool, stop, ready).map_err(
+        |e| {
+            Failure::Failed(format!(
+                "cannot serve at {host}, port {port}: {e}; give another --port, or 0 for any"
+            ))
+        },
+    )?;
     printed?;
     Err(Failure::Interrupted("the page is closed".to_owned()))
 }

@@ -39,4 +39,8 @@ pub static ALL: &[Asset] = &[
     asset!("/panel.js", "panel.js", SCRIPT),
     asset!("/hands.js", "hands.js", SCRIPT),
     asset!("/readouts.js", "readouts.js", SCRIPT),
+    asset!("/picture.js", "picture.js", SCRIPT),
+    asset!("/lines.js", "lines.js", SCRIPT),
+    asset!("/save.js", "save.js", SCRIPT),
+    asset!("/ray.js", "ray.js", SCRIPT),
 ];

@@ -5,6 +5,7 @@ use kerrscope::scene::{Faults, Scene};
 use kerrscope::spacetime::kerr::{CriticalCurve, Orbits};
 use serde::Serialize;
 
+use super::overlay::Lines;
 use super::stock::Refusal;
 
 /// Something that is told as JSON.
@@ -17,6 +18,36 @@ pub enum Notice {
     Faults(FaultList),
     /// What is wrong with a message.
     Fault(String),
+    /// How far a file is.
+    Progress(Progress),
+    /// Why there is no file.
+    Unsaved(FaultList),
+    /// Lines over a picture.
+    Overlay {
+        /// The wish that it answers.
+        generation: u32,
+        /// The lines.
+        lines: Vec<Lines>,
+    },
+    /// A ray.
+    Ray {
+        /// The wish that it answers.
+        generation: u32,
+        /// Place in the picture.
+        at: [f64; 2],
+        /// Radius of the horizon, 0 for none.
+        horizon: f64,
+        /// As `trace` tells it.
+        ray: serde_json::Value,
+    },
+}
+
+/// How far a file is, in rays.
+#[derive(Debug, Serialize)]
+pub struct Progress {
+    pub generation: u32,
+    pub done: u64,
+    pub total: u64,
 }
 
 impl Notice {
@@ -28,14 +59,23 @@ impl Notice {
 
     /// Why a wish was not met.
     pub fn refusal(generation: u32, refusal: &Refusal) -> Self {
-        let faults = match refusal {
-            Refusal::Scene(faults) => faults.iter().map(told).collect(),
-            Refusal::Wish(message) => {
-                vec![Told { place: String::new(), message: message.clone(), help: String::new() }]
-            }
-        };
-        Self::Faults(FaultList { generation, faults })
+        Self::Faults(list(generation, refusal))
     }
+
+    /// Why a file was not made.
+    pub fn unsaved(generation: u32, refusal: &Refusal) -> Self {
+        Self::Unsaved(list(generation, refusal))
+    }
+}
+
+fn list(generation: u32, refusal: &Refusal) -> FaultList {
+    let faults = match refusal {
+        Refusal::Scene(faults) => faults.iter().map(told).collect(),
+        Refusal::Wish(message) => {
+            vec![Told { place: String::new(), message: message.clone(), help: String::new() }]
+        }
+    };
+    FaultList { generation, faults }
 }
 
 #[derive(Debug, Serialize)]
@@ -118,7 +158,8 @@ impl Facts {
                 shadow_diameter: 2.0 * (shadow.area / std::f64::consts::PI).sqrt(),
             }
         });
-        let pixel = Camera::new(scene).ok().map(|camera| camera.pixel_size()).filter(|pixel| pixel.is_finite());
+        let pixel =
+            Camera::new(scene).ok().map(|camera| camera.pixel_size()).filter(|pixel| pixel.is_finite());
         Self {
             generation,
             engine,

@@ -49,12 +49,14 @@ pub fn encode(picture: &Picture, label: &Label) -> Vec<u8> {
     bytes.extend((label.given_up.min(u64::from(u32::MAX)) as u32).to_le_bytes());
     debug_assert_eq!(bytes.len(), HEAD);
     bytes.resize(HEAD + 4 * picture.pixels.len(), 255);
-    bytes[HEAD..].par_chunks_mut(4 * 4096).zip(picture.pixels.par_chunks(4096)).for_each(|(bytes, pixels)| {
-        for (bytes, values) in bytes.chunks_exact_mut(4).zip(pixels) {
-            // The nearest step, as in a PNG of 8 bits.
-            bytes[..3].copy_from_slice(&values.map(|v| (v * 255.0).round() as u8));
-        }
-    });
+    bytes[HEAD..].par_chunks_mut(4 * 4096).zip(picture.pixels.par_chunks(4096)).for_each(
+        |(bytes, pixels)| {
+            for (bytes, values) in bytes.chunks_exact_mut(4).zip(pixels) {
+                // The nearest step, as in a PNG of 8 bits.
+                bytes[..3].copy_from_slice(&values.map(|v| (v * 255.0).round() as u8));
+            }
+        },
+    );
     bytes
 }
 

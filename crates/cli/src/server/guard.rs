@@ -76,7 +76,10 @@ impl Guard {
         let mut hosts = headers.get_all(header::HOST).iter();
         let host = hosts.next().and_then(|host| host.to_str().ok());
         if hosts.next().is_some() || !host.is_some_and(|host| self.is_own(host)) {
-            return Some((StatusCode::MISDIRECTED_REQUEST, "this server is not called so: open the address that it printed\n"));
+            return Some((
+                StatusCode::MISDIRECTED_REQUEST,
+                "this server is not called so: open the address that it printed\n",
+            ));
         }
         for origin in headers.get_all(header::ORIGIN) {
             let host = origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://"));
@@ -88,7 +91,10 @@ impl Guard {
         let shown = from_query(uri).into_iter().chain(from_cookies(headers));
         // Every one is compared, and whole.
         let known = shown.fold(false, |known, shown| known | same(shown, token));
-        (!known).then_some((StatusCode::UNAUTHORIZED, "open the address that the program printed, with its token\n"))
+        (!known).then_some((
+            StatusCode::UNAUTHORIZED,
+            "open the address that the program printed, with its token\n",
+        ))
     }
 }
 
@@ -141,13 +147,23 @@ mod tests {
         for own in ["127.0.0.1:8080", "localhost:8080", "LOCALHOST:8080"] {
             assert!(here.is_own(own), "{own}");
         }
-        for foreign in
-            ["127.0.0.1", "127.0.0.1:80", "example.org:8080", "localhost.example.org:8080", "[::1]:8080", "", ":8080"]
-        {
+        for foreign in [
+            "127.0.0.1",
+            "127.0.0.1:80",
+            "example.org:8080",
+            "localhost.example.org:8080",
+            "[::1]:8080",
+            "",
+            ":8080",
+        ] {
             assert!(!here.is_own(foreign), "{foreign}");
         }
         let everywhere = guard("0.0.0.0:80", Some("abcdefgh"));
-        assert!(everywhere.is_own("192.168.0.7") && everywhere.is_own("[::1]:80") && !everywhere.is_own("example.org"));
+        assert!(
+            everywhere.is_own("192.168.0.7")
+                && everywhere.is_own("[::1]:80")
+                && !everywhere.is_own("example.org")
+        );
     }
 
     #[test]

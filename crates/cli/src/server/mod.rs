@@ -12,8 +12,10 @@ mod desk;
 mod facts;
 mod frame;
 mod guard;
+mod overlay;
 mod pace;
 mod painter;
+mod saver;
 mod stock;
 
 pub use guard::Guard;
@@ -53,6 +55,7 @@ pub struct House {
     pool: ThreadPool,
     props: Props,
     seats: Arc<Semaphore>,
+    saving: Semaphore,
 }
 
 /// Serves until asked to stop; `ready` is told the address once there is one.
@@ -73,8 +76,14 @@ pub fn serve(
         let listener = TcpListener::bind(SocketAddr::new(host, port)).await?;
         let guard = Guard::new(listener.local_addr()?, token);
         let address = guard.address();
-        let house =
-            Arc::new(House { guard, stock, pool, props: Props::default(), seats: Arc::new(Semaphore::new(CLIENTS)) });
+        let house = Arc::new(House {
+            guard,
+            stock,
+            pool,
+            props: Props::default(),
+            seats: Arc::new(Semaphore::new(CLIENTS)),
+            saving: Semaphore::new(1),
+        });
         ready(&address)?;
         tokio::select! {
             served = axum::serve(listener, router(house)) => served,

@@ -57,10 +57,13 @@ impl Pace {
         if !seen.is_finite() || seen <= 0.0 {
             return;
         }
-        let known =
-            self.rates.entry(kind.to_owned()).or_insert(Known { rate: seen, divisor: DIVISORS[DIVISORS.len() - 1] });
+        let known = self
+            .rates
+            .entry(kind.to_owned())
+            .or_insert(Known { rate: seen, divisor: DIVISORS[DIVISORS.len() - 1] });
         // Slower at once, faster by and by: a late frame is seen, a coarse one less.
-        known.rate = if seen < known.rate { 0.5 * (known.rate + seen) } else { 0.8 * known.rate + 0.2 * seen };
+        known.rate =
+            if seen < known.rate { 0.5 * (known.rate + seen) } else { 0.8 * known.rate + 0.2 * seen };
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use kerrscope::render::{Stage, Watch, draw};
-use kerrscope::scene::Scene;
+use kerrscope::scene::{Engine, Scene};
 use kerrscope::spacetime::Level;
 use tokio::sync::mpsc::Sender;
 
@@ -16,6 +16,7 @@ use super::client::Sent;
 use super::desk::Desk;
 use super::facts::{Facts, Notice};
 use super::frame::{self, Label};
+use super::overlay::{self, Kind};
 use super::pace::{Pace, divided};
 
 /// A frame in motion is finished although there is news, or none ever would be; but not if it takes longer than this.
@@ -77,6 +78,10 @@ impl Painter {
         let pixels = f64::from(view.size[0]) * f64::from(view.size[1]);
         let divisor = self.pace.motion(&kind, pixels);
         self.paint(view, &coarser(&scene, divisor), &kind, view.moving, false)?;
+        let quick = scene.render.engine == Engine::ClosedForm;
+        if quick {
+            self.overlay(view, &scene)?;
+        }
         if view.moving {
             return Ok(());
         }
@@ -86,15 +91,35 @@ impl Painter {
         if divisor > 2.0 && self.pace.seconds(&whole, rays) > LONG {
             self.paint(view, &coarser(&scene, 2.0), &kind, false, false)?;
         }
-        self.paint(view, &scene, &whole, false, true)
+        self.paint(view, &scene, &whole, false, true)?;
+        if quick { Ok(()) } else { self.overlay(view, &scene) }
+    }
+
+    /// Sends the lines over a picture; in motion the shadow's edge alone, the others being gone before they are seen.
+    fn overlay(&self, view: &View, scene: &Scene) -> Result<(), End> {
+        let wanted = |kind: &Kind| !view.moving || *kind == Kind::Critical;
+        let kinds: Vec<Kind> = view.overlays.iter().copied().filter(wanted).collect();
+        if view.overlays.is_empty() {
+            return Ok(());
+        }
+        let lines = self.house.pool.install(|| overlay::lines(scene, &kinds));
+        self.tell(&Notice::Overlay { generation: view.generation, lines })
     }
 
     /// Draws one picture and sends it.
-    fn paint(&mut self, view: &View, scene: &Scene, kind: &str, hurried: bool, last: bool) -> Result<(), End> {
+    fn paint(
+        &mut self,
+        view: &View,
+        scene: &Scene,
+        kind: &str,
+        hurried: bool,
+        last: bool,
+    ) -> Result<(), End> {
         let begin = Instant::now();
         let house = Arc::clone(&self.house);
         let desk = Arc::clone(&self.desk);
-        let stage = Stage::with_props(scene, Level::best(), &house.props).map_err(|e| End::Fault(e.to_string()))?;
+        let stage = house.pool.install(|| Stage::with_props(scene, Level::best(), &house.props));
+        let stage = stage.map_err(|e| End::Fault(e.to_string()))?;
         if last || hurried {
             let mut facts = Facts::of(view.generation, scene, stage.engine());
             facts.generation = view.generation;
@@ -140,14 +165,22 @@ fn kind(scene: &Scene) -> String {
     format!("{name:?}, {:?}, {} things, {layers}, {shines}", scene.render.engine, scene.objects.len())
 }
 
-/// The same scene with fewer pixels and one ray in each.
+/// Pixels below which every ray is traced.
+const FEW: u32 = 24_000;
+
+/// What a coarse picture may be off by where it is interpolated: less than its pixels.
+const COARSE: f64 = 0.003;
+
+/// The same scene with fewer pixels and one ray in each, through the centre, so that nothing flickers in motion.
 fn coarser(scene: &Scene, divisor: f64) -> Scene {
     let mut scene = scene.clone();
     let [width, height] = divided([scene.render.width, scene.render.height], divisor);
     scene.render.width = width;
     scene.render.height = height;
     scene.render.samples = 1;
+    scene.render.jitter = false;
     // Few rays are traced sooner than it is found out which could be interpolated.
-    scene.render.adaptive = None;
+    let many = width * height > FEW;
+    scene.render.adaptive = scene.render.adaptive.filter(|_| many).map(|error| error.max(COARSE));
     scene
 }

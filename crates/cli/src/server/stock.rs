@@ -164,14 +164,18 @@ fn written(key: &str, value: &Value) -> Result<Option<String>, Refusal> {
     // What comes before the first `=` is the key, to those who read it next.
     if !OPEN.iter().any(|open| within(&open)) || key.contains(['=', '\n', '\r']) {
         let shown: String = key.chars().take(60).collect();
-        return Err(Refusal::Wish(format!("{shown:?} cannot be set from the page: write it in a scene file")));
+        return Err(Refusal::Wish(format!(
+            "{shown:?} cannot be set from the page: write it in a scene file"
+        )));
     }
     if value.is_null() {
         return Ok(None);
     }
     let mut text = String::new();
     if !write_toml(value, &mut text) || text.len() > LONGEST {
-        return Err(Refusal::Wish(format!("{key}: give a number, a word, true or false, or a short list of these")));
+        return Err(Refusal::Wish(format!(
+            "{key}: give a number, a word, true or false, or a short list of these"
+        )));
     }
     Ok(Some(text))
 }
@@ -182,7 +186,9 @@ fn write_toml(value: &Value, to: &mut String) -> bool {
         Value::Bool(_) | Value::Number(_) => write!(to, "{value}").is_ok(),
         // JSON cannot say it otherwise.
         Value::String(text) if text == "inf" => write!(to, "inf").is_ok(),
-        Value::String(text) => text.len() <= LONGEST && !text.contains('\u{7f}') && write!(to, "{value}").is_ok(),
+        Value::String(text) => {
+            text.len() <= LONGEST && !text.contains('\u{7f}') && write!(to, "{value}").is_ok()
+        }
         Value::Array(items) => {
             to.push('[');
             let all = items.len() <= LONGEST
@@ -217,7 +223,15 @@ mod tests {
 
     fn view(base: &str, set: Value) -> View {
         let set = set.as_object().unwrap().clone().into_iter().collect();
-        View { generation: 1, base: base.to_owned(), set, size: [64, 36], samples: 1, moving: false }
+        View {
+            generation: 1,
+            base: base.to_owned(),
+            set,
+            size: [64, 36],
+            samples: 1,
+            moving: false,
+            overlays: Vec::new(),
+        }
     }
 
     #[test]
