@@ -64,9 +64,9 @@ export class Link {
     this.wish = null;
     /** Whether the wish has not been sent. */
     this.waiting = false;
-    /** When the wish before was sent, and whether it is answered. */
+    /** When the wish before was sent, and the last that was answered. */
     this.sent = 0;
-    this.answered = true;
+    this.answered = 0;
     this.pause = 250;
     this.closed = false;
     this.connect();
@@ -78,7 +78,7 @@ export class Link {
     this.socket = socket;
     socket.onopen = () => {
       this.pause = 250;
-      this.answered = true;
+      this.answered = this.generation;
       this.listener.open(true);
       if (this.wish) this.waiting = true;
       this.flush();
@@ -105,15 +105,14 @@ export class Link {
     this.flush();
   }
 
-  /** Sends the last wish. While things move, one at a time is on its way: what comes between is out of date. */
+  /** Sends the last wish. While things move, one is drawn and one waits for its turn: what comes between is out of date. */
   flush() {
     if (!this.waiting || !this.wish || this.socket?.readyState !== WebSocket.OPEN) return;
-    if (this.wish.moving && !this.answered && performance.now() - this.sent < 400) return;
-    this.generation = (this.generation + 1) % 2 ** 31;
+    if (this.wish.moving && this.generation - this.answered > 1 && performance.now() - this.sent < 400) return;
+    this.generation = this.generation + 1;
     this.socket.send(JSON.stringify({ kind: "show", generation: this.generation, ...this.wish }));
     this.sent = performance.now();
     this.waiting = false;
-    this.answered = false;
   }
 
   /** Sends another message at once. @param {Record<string, any>} message @returns {boolean} whether there is a connection */
@@ -133,14 +132,14 @@ export class Link {
       }
       const frame = decode(data);
       if (!frame) return;
-      if (frame.generation === this.generation) this.answered = true;
+      this.answered = Math.max(this.answered, frame.generation);
       this.flush();
       this.listener.frame(frame);
       return;
     }
     const { kind, content } = JSON.parse(data);
     if (kind === "faults" || kind === "fault") {
-      this.answered = true;
+      this.answered = this.generation;
       this.flush();
     }
     this.listener.notice(kind, content);

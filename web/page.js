@@ -34,6 +34,8 @@ const course = new Course(read(location.hash));
 let scene = null;
 /** Where the observer is. @type {{ distance: number, inclination: number, azimuth: number } | null} */
 let place = null;
+/** Radius of the innermost stable orbit, if there is one. @type {number | null} */
+let isco = null;
 /** Times of the last frames, for their rate. @type {number[]} */
 let times = [];
 
@@ -61,6 +63,7 @@ const picture = new Picture(canvas, element("lines", HTMLCanvasElement), {
       scene = content.scene;
       place = { ...content.place, distance: content.place.distance ?? Infinity };
       faults.hidden = true;
+      isco = content.hole?.isco ?? null;
       readouts(list, content);
       display();
     } else if (kind === "ray") {
@@ -96,16 +99,16 @@ function display() {
   panel.show({ ...scene, page }, course.look.set);
 }
 
-/** @param {{ place: string, message: string, help: string }[]} found */
-function complain(found) {
-  faults.replaceChildren(...found.map(({ place: where, message, help }) => {
+/** @param {{ place: string, message: string, help: string }[]} found @param {HTMLElement} [box] */
+function complain(found, box = faults) {
+  box.replaceChildren(...found.map(({ place: where, message, help }) => {
     const words = make("p");
     if (where) words.append(make("code", { textContent: where }), ": ");
     words.append(message);
     if (help) words.append(make("br"), make("span", { className: "mend", textContent: help }));
     return words;
   }));
-  faults.hidden = found.length === 0;
+  box.hidden = found.length === 0;
 }
 
 /** The size of the picture: as many pixels as the screen has for it, but not too many. @returns {[number, number]} */
@@ -169,22 +172,26 @@ let other = null;
 function compare(wished) {
   const { set } = course.look;
   const how = BESIDE[set["page.compare"]];
-  const [beside, split] = [element("beside", HTMLElement), element("split", HTMLElement)];
+  const [beside, split, wrong] = ["beside", "split", "other-faults"].map((id) => element(id, HTMLElement));
   beside.hidden = split.hidden = !how;
   if (!how) {
     other?.close();
     other = null;
+    wrong.hidden = true;
     return;
   }
   const ignored = () => {};
   other ??= new Picture(element("other", HTMLCanvasElement), element("other-lines", HTMLCanvasElement), {
     frame: ignored, open: ignored, file: ignored,
     notice: (kind, content) => {
-      if (kind === "faults") complain(content.faults);
+      if (kind === "faults") complain(content.faults, wrong);
+      else if (kind === "facts") wrong.hidden = true;
     },
   });
   /** @type {Record<string, any>} */
-  const differing = set["page.compare"] === "counter" ? { "spacetime.spin": -Number(set["spacetime.spin"] ?? at(scene ?? {}, "spacetime.spin") ?? 0.99) } : how;
+  const differing = set["page.compare"] === "counter" ? { "spacetime.spin": -Number(set["spacetime.spin"] ?? at(scene ?? {}, "spacetime.spin") ?? 0.99) } : { ...how };
+  // Where space is flat no orbit is the last stable one: the edge stays where it was.
+  if (set["page.compare"] === "flat" && (set["disk.inner"] ?? at(scene ?? {}, "disk.inner")) === "isco" && isco) differing["disk.inner"] = round(isco, 5);
   other.ask({ ...wished, set: keys(prune({ ...set, ...differing })) });
 }
 

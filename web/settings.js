@@ -254,8 +254,8 @@ export const PRESETS = [
     name: "M87* at 17°", base: "built-in",
     set: {
       "spacetime.spin": 0.9, "observer.distance": "inf", "observer.inclination": 163, "screen.kind": "impact",
-      "screen.field_of_view": 28, "screen.roll": -108, "disk.model": "power-law", "disk.inner": "isco", "disk.outer": 40, "disk.index": 3,
-      "sky.kind": "black", "camera.display.exposure": 5, "units.mass": 6.5e9, "units.distance": 16.8e6,
+      "screen.field_of_view": 28, "screen.roll": -108, "disk.model": "power-law", "disk.inner": "isco", "disk.outer": 30, "disk.index": 4,
+      "sky.kind": "black", "camera.display.exposure": 3, "units.mass": 6.5e9, "units.distance": 16.8e6,
     },
   },
   { name: "Schwarzschild", base: "built-in", set: { "spacetime.spin": 0, "observer.inclination": 75 } },

@@ -220,8 +220,9 @@ pub fn lines(scene: &Scene, kinds: &[Kind]) -> Vec<Lines> {
     }
     let of = |kind: Kind| match kind {
         Kind::Critical => grid.boundary(&look, |seen| seen.captured),
+        // The edges of higher orders are closer to each other than cells are wide.
         Kind::Orders => {
-            (1..=3).flat_map(|order| grid.boundary(&look, move |seen| seen.crossings >= order)).collect()
+            (1..=2).flat_map(|order| grid.boundary(&look, move |seen| seen.crossings >= order)).collect()
         }
         Kind::Equator => {
             let circles =
