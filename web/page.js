@@ -2,6 +2,7 @@
 
 import { hands } from "./hands.js";
 import { Panel, make } from "./panel.js";
+import { Observation } from "./observation.js";
 import { Picture } from "./picture.js";
 import { showRay } from "./ray.js";
 import { readouts, status } from "./readouts.js";
@@ -315,6 +316,24 @@ undo.onclick = () => step(true);
 redo.onclick = () => step(false);
 
 element("save", HTMLButtonElement).onclick = () => saver.open();
+
+const observation = new Observation(element("observer", HTMLDialogElement), (set) => {
+  course.look = { base: "built-in", set: { ...set, ...own(course.look.set, true) } };
+  scene = null;
+  settle();
+});
+element("observe", HTMLButtonElement).onclick = () => observation.open();
+document.addEventListener("dragover", (event) => {
+  event.preventDefault();
+  document.body.classList.add("dropping");
+});
+document.addEventListener("dragleave", (event) => event.relatedTarget ?? document.body.classList.remove("dropping"));
+document.addEventListener("drop", (event) => {
+  event.preventDefault();
+  document.body.classList.remove("dropping");
+  const file = event.dataTransfer?.files[0];
+  if (file) observation.open(file);
+});
 
 element("share", HTMLButtonElement).onclick = async () => {
   try {

@@ -61,7 +61,7 @@ pub enum Kept {
 }
 
 /// What is to be seen, whole: nothing of it is remembered.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
+#[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 pub struct View {
     /// A number that comes back with everything that is an answer.

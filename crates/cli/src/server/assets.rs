@@ -43,4 +43,5 @@ pub static ALL: &[Asset] = &[
     asset!("/lines.js", "lines.js", SCRIPT),
     asset!("/save.js", "save.js", SCRIPT),
     asset!("/ray.js", "ray.js", SCRIPT),
+    asset!("/observation.js", "observation.js", SCRIPT),
 ];

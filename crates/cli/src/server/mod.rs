@@ -12,12 +12,14 @@ mod desk;
 mod facts;
 mod frame;
 mod guard;
+mod observation;
 mod overlay;
 mod pace;
 mod painter;
 mod saver;
 mod stock;
 
+use asked::View;
 pub use guard::Guard;
 pub use stock::Stock;
 
@@ -30,11 +32,14 @@ use std::time::Duration;
 use axum::Router;
 use axum::extract::State;
 use axum::extract::ws::WebSocketUpgrade;
-use axum::http::StatusCode;
+use axum::http::{StatusCode, Uri};
 use axum::middleware;
 use axum::response::{IntoResponse, Response};
 use axum::routing::get;
-use kerrscope::render::Props;
+use kerrscope::render::{Props, Stage, Watch, draw};
+use kerrscope::spacetime::Level;
+use kerrscope_fit::models::Name;
+use kerrscope_fit::request::unknown_model;
 use rayon::ThreadPool;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
@@ -56,6 +61,20 @@ pub struct House {
     props: Props,
     seats: Arc<Semaphore>,
     saving: Semaphore,
+    observing: Semaphore,
+}
+
+impl House {
+    /// Draws a small picture of the scene given, so that its patterns are made and its code is in memory before a browser asks.
+    fn rehearse(&self) {
+        let view = View { size: [64, 36], samples: 1, ..View::default() };
+        let Ok(scene) = self.stock.scene(&view, 1) else { return };
+        self.pool.install(|| {
+            if let Ok(stage) = Stage::with_props(&scene, Level::best(), &self.props) {
+                let _ = draw(&stage, &Watch::default());
+            }
+        });
+    }
 }
 
 /// Serves until asked to stop; `ready` is told the address once there is one.
@@ -83,8 +102,11 @@ pub fn serve(
             props: Props::default(),
             seats: Arc::new(Semaphore::new(CLIENTS)),
             saving: Semaphore::new(1),
+            observing: Semaphore::new(1),
         });
         ready(&address)?;
+        let first = Arc::clone(&house);
+        tokio::task::spawn_blocking(move || first.rehearse());
         tokio::select! {
             served = axum::serve(listener, router(house)) => served,
             () = wish(stop) => Ok(()),
@@ -102,7 +124,7 @@ async fn wish(stop: &AtomicBool) {
 }
 
 fn router(house: Arc<House>) -> Router {
-    let mut router = Router::new().route("/socket", get(socket));
+    let mut router = Router::new().route("/socket", get(socket)).route("/observation", get(observation));
     for asset in assets::ALL {
         router = router.route(asset.path, get(move || async move { asset.response() }));
     }
@@ -112,10 +134,29 @@ fn router(house: Arc<House>) -> Router {
         .with_state(house)
 }
 
+/// Why there is no seat.
+const FULL: &str = "as many pages are open as this program serves: close one\n";
+
+/// A socket that takes a picture of anybody's. Its address may name the model: `?model=ring`.
+async fn observation(State(house): State<Arc<House>>, uri: Uri, upgrade: WebSocketUpgrade) -> Response {
+    let Ok(seat) = Arc::clone(&house.seats).try_acquire_owned() else {
+        return (StatusCode::SERVICE_UNAVAILABLE, FULL).into_response();
+    };
+    let named = uri.query().and_then(|query| query.split('&').find_map(|part| part.strip_prefix("model=")));
+    let model = match named.map(|text| Name::named(text).ok_or_else(|| unknown_model(text))).transpose() {
+        Ok(model) => model,
+        Err(fault) => return (StatusCode::BAD_REQUEST, format!("{fault}\n")).into_response(),
+    };
+    let upgrade = upgrade.max_message_size(observation::LARGEST).max_frame_size(observation::LARGEST);
+    upgrade.on_upgrade(move |socket| async move {
+        observation::serve(socket, house, model).await;
+        drop(seat);
+    })
+}
+
 async fn socket(State(house): State<Arc<House>>, upgrade: WebSocketUpgrade) -> Response {
     let Ok(seat) = Arc::clone(&house.seats).try_acquire_owned() else {
-        let words = "as many pages are open as this program serves: close one\n";
-        return (StatusCode::SERVICE_UNAVAILABLE, words).into_response();
+        return (StatusCode::SERVICE_UNAVAILABLE, FULL).into_response();
     };
     let upgrade = upgrade.max_message_size(MESSAGE).max_frame_size(MESSAGE);
     upgrade.on_upgrade(move |socket| async move {

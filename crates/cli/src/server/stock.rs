@@ -160,9 +160,9 @@ impl Stock {
 /// The value of a key that may be set, as TOML; none if its default shall count.
 fn written(key: &str, value: &Value) -> Result<Option<String>, Refusal> {
     let within =
-        |open: &&str| key.strip_prefix(open).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
+        |open: &str| key.strip_prefix(open).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'));
     // What comes before the first `=` is the key, to those who read it next.
-    if !OPEN.iter().any(|open| within(&open)) || key.contains(['=', '\n', '\r']) {
+    if !OPEN.iter().any(|open| within(open)) || key.contains(['=', '\n', '\r']) {
         let shown: String = key.chars().take(60).collect();
         return Err(Refusal::Wish(format!(
             "{shown:?} cannot be set from the page: write it in a scene file"
@@ -221,7 +221,7 @@ mod tests {
     use super::*;
     use serde_json::json;
 
-    fn view(base: &str, set: Value) -> View {
+    fn view(base: &str, set: &Value) -> View {
         let set = set.as_object().unwrap().clone().into_iter().collect();
         View {
             generation: 1,
@@ -241,15 +241,15 @@ mod tests {
             "observer.inclination": 17, "disk.orders": [0, 1], "disk.doppler": true, "observer.motion": "zamo",
             "disk.color": [1, 0.5, 0.25], "disk.model": "page-thorne",
         });
-        let scene = stock.scene(&view("", set), 9).unwrap();
+        let scene = stock.scene(&view("", &set), 9).unwrap();
         assert_eq!(scene.spacetime.spin(), Some(0.5));
         assert_eq!((scene.render.width, scene.render.height, scene.render.samples), (64, 36, 9));
         assert!((scene.observer.place.theta - 17f64.to_radians()).abs() < 1e-12);
         assert_eq!(scene.disk.unwrap().orders, Some(vec![0, 1]));
-        assert!(matches!(stock.scene(&view("", json!({"spacetime.spin": 2})), 1), Err(Refusal::Scene(_))));
+        assert!(matches!(stock.scene(&view("", &json!({"spacetime.spin": 2})), 1), Err(Refusal::Scene(_))));
         let far = json!({"observer.distance": "inf", "screen.kind": "impact"});
-        assert_eq!(stock.scene(&view("", far), 1).unwrap().observer.place.r, f64::INFINITY);
-        let usual = stock.scene(&view("", json!({"spacetime.spin": null})), 1).unwrap();
+        assert_eq!(stock.scene(&view("", &far), 1).unwrap().observer.place.r, f64::INFINITY);
+        let usual = stock.scene(&view("", &json!({"spacetime.spin": null})), 1).unwrap();
         assert_eq!(usual.spacetime.spin(), Some(0.99));
     }
 
@@ -271,7 +271,7 @@ mod tests {
             "",
         ] {
             for value in [json!("/etc/passwd"), json!(1)] {
-                let refused = stock.scene(&view("", json!({key: value})), 1);
+                let refused = stock.scene(&view("", &json!({key: value})), 1);
                 assert!(matches!(refused, Err(Refusal::Wish(_) | Refusal::Scene(_))), "{key}");
                 if let Err(Refusal::Scene(faults)) = refused {
                     assert!(!faults.to_string().contains("passwd"), "{key}: {faults}");
@@ -279,7 +279,7 @@ mod tests {
             }
         }
         for value in [json!({"a": 1}), json!([[[1]]]), json!("x".repeat(2000))] {
-            let refused = stock.scene(&view("", json!({"observer.motion": value})), 1);
+            let refused = stock.scene(&view("", &json!({"observer.motion": value})), 1);
             assert!(matches!(refused, Err(Refusal::Wish(_))));
         }
     }
@@ -288,11 +288,11 @@ mod tests {
     fn every_scene_shipped_can_be_seen() {
         let stock = Stock::new(Draft::new("", ""));
         for name in Stock::names().chain(["built-in"]) {
-            let scene = stock.scene(&view(name, json!({})), 1);
+            let scene = stock.scene(&view(name, &json!({})), 1);
             assert!(scene.is_ok(), "{name}: {:?}", scene.err());
         }
         for name in ["../scenes/room", "/etc/passwd", "room.toml"] {
-            assert!(matches!(stock.scene(&view(name, json!({})), 1), Err(Refusal::Wish(_))), "{name}");
+            assert!(matches!(stock.scene(&view(name, &json!({})), 1), Err(Refusal::Wish(_))), "{name}");
         }
     }
 }

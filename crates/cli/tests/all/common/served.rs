@@ -11,7 +11,7 @@ use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
 /// How long anything may take.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 /// `kerrscope view`, until it is dropped.
 pub struct Served {
@@ -32,12 +32,14 @@ impl Served {
     pub fn start(folder: &Path, arguments: &[&str]) -> Self {
         let all = [&["view", "--no-open"], arguments].concat();
         let mut command = super::program(folder, &all);
-        let mut child = command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
+        let mut child =
+            command.stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("the program starts");
         let mut line = String::new();
         let output = child.stdout.take().expect("it is a pipe");
         BufReader::new(output).read_line(&mut line).expect("it prints a line");
         let address = line.trim_end().to_owned();
-        let place = address.strip_prefix("http://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
+        let place =
+            address.strip_prefix("http://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
         let port = place.rsplit(':').next().and_then(|port| port.parse().ok());
         Self { child, port: port.unwrap_or_else(|| panic!("no address: {line:?}")), address }
     }
@@ -120,7 +122,9 @@ impl Client {
         while begin.elapsed() < PATIENCE {
             match self.next().expect("the server answers") {
                 Came::Bytes(bytes) if bytes.starts_with(magic) => return bytes,
-                Came::Notice(kind, content) if kind.starts_with("fault") || kind == "unsaved" => panic!("{kind}: {content}"),
+                Came::Notice(kind, content) if kind.starts_with("fault") || kind == "unsaved" => {
+                    panic!("{kind}: {content}")
+                }
                 _ => {}
             }
         }
@@ -139,12 +143,12 @@ impl Client {
 }
 
 /// A view of the scene given.
-pub fn view(generation: u32, set: Value, size: [u32; 2], samples: u32) -> Value {
+pub fn view(generation: u32, set: &Value, size: [u32; 2], samples: u32) -> Value {
     json!({"generation": generation, "set": set, "size": size, "samples": samples})
 }
 
 /// The wish to see it.
-pub fn show(generation: u32, set: Value, size: [u32; 2], samples: u32) -> Value {
+pub fn show(generation: u32, set: &Value, size: [u32; 2], samples: u32) -> Value {
     let mut message = view(generation, set, size, samples);
     message["kind"] = json!("show");
     message
