@@ -28,6 +28,8 @@ export class Observation {
     this.socket = null;
     /** @type {any} */
     this.report = null;
+    /** Pixels of the picture. @type {[number, number]} */
+    this.size = [1, 1];
     /** @type {File | null} */
     this.last = null;
     this.file.onchange = () => this.file.files?.[0] && this.open(this.file.files[0]);
@@ -79,7 +81,11 @@ export class Observation {
       canvas.setAttribute("aria-label", `Picture: ${name}`);
       const figure = make("figure");
       figure.append(canvas, make("figcaption", { textContent: name }));
-      this.pictures.append(figure);
+      figure.dataset.name = name;
+      const before = this.pictures.querySelector(`[data-name="${name}"]`);
+      // The fit as it is by now takes the place of the one before.
+      if (before) before.replaceWith(figure);
+      else this.pictures.append(figure);
       return;
     }
     const { kind, content } = JSON.parse(data);
@@ -88,6 +94,8 @@ export class Observation {
     } else if (kind === "measured") {
       this.words.textContent = "Measured; fitting …";
       this.showMeasured(content);
+    } else if (kind === "estimated") {
+      this.fitted.replaceChildren(this.table("So far", content.parameters));
     } else if (kind === "fitted") {
       this.showFit(content.report);
     } else {
@@ -104,21 +112,28 @@ export class Observation {
       if (found?.diameter) rows.push([`${label}, diameter`, with_error(found.diameter)]);
       else rows.push([label, `not found: ${reason ?? ""}`]);
     }
+    this.size = size;
     this.measured.replaceChildren(...rows.flatMap(([name, value]) => [make("dt", { textContent: name }), make("dd", { textContent: value })]));
   }
 
-  /** @param {any} report */
-  showFit(report) {
-    this.report = report;
+  /** @param {string} textContent @param {any[]} parameters */
+  table(textContent, parameters) {
     const table = make("table");
-    table.append(make("caption", { textContent: `${report.model}, χ² ${report.chi2.toFixed(0)} for ${report.degrees} degrees of freedom` }));
-    for (const { name, unit, mean, sd, free } of report.parameters) {
+    table.append(make("caption", { textContent }));
+    for (const { name, unit, mean, sd, free } of parameters) {
       if (!free) continue;
       const line = make("tr");
       line.append(make("th", { scope: "row", textContent: name.replaceAll("_", " ") }));
       line.append(make("td", { textContent: `${shown(Number(mean.toPrecision(5)))} ± ${shown(Number(sd.toPrecision(2)))}` }), make("td", { textContent: unit }));
       table.append(line);
     }
+    return table;
+  }
+
+  /** @param {any} report */
+  showFit(report) {
+    this.report = report;
+    const table = this.table(`${report.model}, χ² ${report.chi2.toFixed(0)} for ${report.degrees} degrees of freedom`, report.parameters);
     this.fitted.replaceChildren(table, ...report.warnings.map((/** @type {string} */ text) => make("p", { className: "mend", textContent: text })));
     this.words.textContent = `${report.converged ? "Converged" : "Not converged"} after ${report.wall_s.toFixed(1)} s, ${report.evaluations} pictures${report.good ? "" : "; the model does not describe the picture"}`;
     this.take.hidden = !["page-thorne", "power-law", "thin-power-law", "silhouette"].includes(report.model);
@@ -137,6 +152,13 @@ export class Observation {
     put("observer.distance", found.distance, 3, 1e6);
     // East of North is from up over left; the camera's roll turns the picture clockwise.
     put("screen.roll", found.position_angle === undefined ? undefined : -(((found.position_angle + 180) % 360) - 180));
+    if (found.scale > 0 && Number.isFinite(found.distance)) {
+      // The same part of the plane through the hole.
+      const [width, height] = this.size.map((pixels) => pixels * found.scale);
+      put("screen.field_of_view", (360 / Math.PI) * Math.atan(height / 2 / found.distance), 0.01, 170);
+      put("disk.outer", found.outer ?? Math.hypot(width, height), 2, 1000);
+    }
+    set["sky.kind"] = "black";
     if (set["disk.model"] === "power-law") put("disk.index", found.index);
     this.dialog.close();
     this.use(set);

@@ -161,6 +161,24 @@ for (const format of ["png", "exr"]) {
   assert.ok(saved.equals(drawn), `the saved ${format} is another than that of render`);
 }
 
+// An observation: measured and fitted, shown beside its fit, and taken as a scene.
+execFileSync(program, ["render", "-o", "seen.fits", ...[
+  "disk.model=power-law", "disk.outer=12", "observer.distance=100", "observer.inclination=30", "screen.field_of_view=14",
+  "sky.kind=black", "render.width=24", "render.height=24", "render.samples=16",
+].flatMap((set) => ["--set", set])], { cwd: folder });
+await page.click("#observe");
+await page.selectOption("#observed-model", "ring");
+await page.setInputFiles("#observed-file", path.join(folder, "seen.fits"));
+await page.waitForFunction(() => /converged/i.test(document.querySelector("#observer output").textContent), null, { timeout: 180000 });
+assert.equal(await page.locator(".pictures figure").count(), 3);
+assert.match(await page.textContent(".measured"), /24 × 24 pixels/);
+assert.match(await page.textContent(".fitted"), /diameter/);
+fs.writeFileSync(path.join(folder, "nothing.png"), "this is no picture");
+await page.setInputFiles("#observed-file", path.join(folder, "nothing.png"));
+await page.waitForFunction(() => !document.querySelector("#observer output").textContent.startsWith("Reading"), null, { timeout: 20000 });
+assert.doesNotMatch(await page.textContent("#observer output"), /converged/i);
+await page.click("#observer [name=close]");
+
 // By keyboard alone every control is reached, and each has a name.
 const unnamed = await page.evaluate(() => [...document.querySelectorAll("button, input, select, canvas")].filter((part) => {
   if (part.closest("[aria-hidden=true]") || part.getAttribute("aria-hidden") === "true") return false;

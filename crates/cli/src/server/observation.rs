@@ -14,8 +14,9 @@ use axum::extract::ws::{Message, WebSocket};
 use kerrscope::display::Picture as Shown;
 use kerrscope::display::srgb;
 use kerrscope::measure::{Features, Picture};
-use kerrscope_fit::fit::Image;
+use kerrscope_fit::fit::{Image, Interim};
 use kerrscope_fit::models::{Choice, Name};
+use kerrscope_fit::summary::Estimate;
 use kerrscope_fit::task::{Report, Task, TaskError, Watch};
 use serde::Serialize;
 use tokio::sync::mpsc::{self, Sender};
@@ -45,6 +46,8 @@ enum Told<'a> {
     Measured { size: [usize; 2], features: &'a Features },
     /// What is being done.
     Fitting { text: &'a str },
+    /// What is known of the parameters by then.
+    Estimated { parameters: &'a [Estimate] },
     /// The fit.
     Fitted { report: &'a Report<'a> },
     /// Why it ends.
@@ -138,12 +141,19 @@ fn observe(
         }
     };
     let cancelled = || stop.load(Ordering::Relaxed);
-    let watch = Watch { progress: &progress, cancelled: &cancelled, keeper: None };
-    let found = house.pool.install(|| ready.run(&watch)).map_err(|error| error.to_string())?;
     let image = ready.image();
+    let bright = brightest(&image.values);
+    let interim = |known: Interim<'_>| match known {
+        Interim::Best(values) if values.len() == image.values.len() => {
+            show(send, Which::Model, image.size, |pixel| grey(values[pixel] / bright));
+        }
+        Interim::Best(_) => {}
+        Interim::Estimates(parameters) => Told::Estimated { parameters }.send(send),
+    };
+    let watch = Watch { progress: &progress, interim: Some(&interim), cancelled: &cancelled, keeper: None };
+    let found = house.pool.install(|| ready.run(&watch)).map_err(|error| error.to_string())?;
     let best = &found.fit.best.values;
     if best.len() == image.values.len() {
-        let bright = brightest(&image.values);
         show(send, Which::Model, image.size, |pixel| grey(best[pixel] / bright));
         show(send, Which::Residual, image.size, |pixel| {
             let deviation =

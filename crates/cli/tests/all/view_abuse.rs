@@ -188,3 +188,26 @@ fn two_hundred_clients_are_too_many() {
     works(&mut next, 3);
     works(&mut good, 3);
 }
+
+#[test]
+fn pictures_that_are_none_are_refused() {
+    let folder = tempdir().unwrap();
+    let served = Served::start(folder.path(), &[]);
+    let mut good = served.connect().unwrap();
+    works(&mut good, 1);
+    let mut dice = Dice(7);
+    let noise: Vec<u8> = (0..5000).map(|_| dice.roll() as u8).collect();
+    let starts: [&[u8]; 4] =
+        [b"", b"\x89PNG\r\n\x1a\n", b"SIMPLE  =                    T", &[0x76, 0x2f, 0x31, 0x01]];
+    for start in starts {
+        let mut client = served.connect_to("observation?model=ring").unwrap();
+        client.socket.send(Message::Binary(Bytes::from([start, &noise].concat()))).unwrap();
+        let fault = client.notice("fault");
+        assert!(fault["text"].as_str().is_some_and(|text| text.len() > 10), "{fault}");
+    }
+    assert!(served.connect_to("observation?model=../../etc/passwd").is_err());
+    let mut large = served.connect_to("observation").unwrap();
+    let sent = large.socket.send(Message::Binary(Bytes::from(vec![0; (32 << 20) + 1])));
+    assert!(sent.is_err() || large.next().is_err(), "more than 32 MiB were taken");
+    works(&mut good, 2);
+}

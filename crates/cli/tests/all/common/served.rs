@@ -63,9 +63,13 @@ impl Served {
     }
 
     pub fn connect(&self) -> Result<Client, tungstenite::Error> {
+        self.connect_to("socket")
+    }
+
+    pub fn connect_to(&self, path: &str) -> Result<Client, tungstenite::Error> {
         let stream = TcpStream::connect(("127.0.0.1", self.port))?;
         stream.set_read_timeout(Some(PATIENCE))?;
-        let request = format!("ws://127.0.0.1:{}/socket", self.port).into_client_request()?;
+        let request = format!("ws://127.0.0.1:{}/{path}", self.port).into_client_request()?;
         match tungstenite::client(request, stream) {
             Ok((socket, _)) => Ok(Client { socket }),
             Err(tungstenite::HandshakeError::Failure(error)) => Err(error),
