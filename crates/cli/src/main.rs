@@ -14,6 +14,7 @@ mod progress;
 mod render;
 mod report;
 mod scene;
+mod server;
 mod shadow;
 mod side_view;
 mod source;
@@ -23,6 +24,7 @@ mod survey;
 mod thesis;
 mod trace;
 mod validate;
+mod view;
 
 use clap::{Parser, Subcommand, ValueEnum};
 use kerrscope::spacetime::Level;
@@ -57,6 +59,8 @@ struct Talk {
 enum Command {
     /// Draw a scene
     Render(render::Arguments),
+    /// Open a page in which one flies around a scene
+    View(view::Arguments),
     /// Follow one ray
     Trace(trace::Arguments),
     /// Horizon, circular orbits and efficiency of a hole
@@ -110,6 +114,7 @@ fn main() -> ExitCode {
     }
     let outcome = match arguments.command.unwrap_or(Command::Render(render::Arguments::default())) {
         Command::Render(a) => render::run(&a, arguments.talk.quiet),
+        Command::View(a) => view::run(&a),
         Command::Trace(a) => trace::run(&a),
         Command::Orbits(a) => orbits::run(&a),
         Command::Shadow(a) => shadow::run(&a),

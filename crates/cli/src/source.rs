@@ -1,8 +1,8 @@
 //! Where a scene comes from: a scene file, or a picture that was made of one.
 
 use crate::report::Failure;
-use kerrscope::output::{Format, draft};
-use kerrscope::scene::Scene;
+use kerrscope::output::{Format, SavedError, draft};
+use kerrscope::scene::{Draft, Scene};
 use std::path::PathBuf;
 
 /// A scene named on the command line, and what is to be changed in it.
@@ -25,8 +25,17 @@ impl Source {
             // What is wrong with overrides is told even if the file cannot be read.
             return Ok(Scene::load(Some(path), &overrides)?);
         }
-        let mut draft = draft(path).map_err(|e| Failure::Input(e.to_string()))?;
-        draft.overrides = overrides;
-        Ok(draft.scene()?)
+        Ok(Draft { overrides, ..self.draft()? }.scene()?)
+    }
+
+    /// The scene as it was typed, without what `--set` changes in it.
+    pub fn draft(&self) -> Result<Draft, Failure> {
+        let Some(path) = &self.scene else {
+            return Ok(Draft { name: "built-in scene".to_owned(), ..Draft::new("", "") });
+        };
+        draft(path).map_err(|error| match error {
+            SavedError::Scene(faults) => Failure::Scene(faults),
+            SavedError::File(error) => Failure::Input(error.to_string()),
+        })
     }
 }

@@ -130,6 +130,16 @@ struct Shot {
     follower: Follower,
 }
 
+impl Shot {
+    /// Radius of the horizon, 0 for none.
+    fn horizon(&self) -> f64 {
+        match &self.element {
+            Some(element) => element.horizon(),
+            None => self.spin.map_or(0.0, |a| horizons(a).0),
+        }
+    }
+}
+
 /// What follows a ray, past nothing but the hole or among things.
 enum Follower {
     Alone(Box<dyn Tracer>),
@@ -175,14 +185,27 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         TraceFormat::Json => print_json(&output(&shot, &path, arguments.path.is_some())),
         TraceFormat::Text => print(&text(&output(&shot, &path, arguments.path.is_some()))),
         TraceFormat::Csv => print(&csv(&path)),
-        TraceFormat::Svg => {
-            let horizon = match &shot.element {
-                Some(element) => element.horizon(),
-                None => shot.spin.map_or(0.0, |a| horizons(a).0),
-            };
-            print(&side_view::draw(&path, horizon, &title(&shot, &path)))
-        }
+        TraceFormat::Svg => print(&side_view::draw(&path, shot.horizon(), &title(&shot, &path))),
     }
+}
+
+/// The ray at a point of a scene's picture, as JSON, with so many points of its way; and the radius of the horizon, 0 for none.
+///
+/// # Errors
+/// If no photon arrives there.
+pub fn at_point(scene: &Scene, [x, y]: [f64; 2], points: usize) -> Result<(serde_json::Value, f64), String> {
+    let ray = Camera::new(scene).and_then(|camera| camera.ray(x, y)).map_err(|e| e.to_string())?;
+    let shot = of_scene(scene, ray);
+    let query = Query { max_crossings: 16, elapsed: true, ..Query::default() };
+    let mut path = Path::default();
+    shot.follower.trace(&shot.ray, &query, &mut path);
+    if shot.ray.side == Side::Reversed {
+        let mut way = Path::default();
+        shot.follower.trace(&shot.ray, &Query { points, ..query }, &mut way);
+        path.points = way.points;
+    }
+    let output = serde_json::to_value(output(&shot, &path, true)).map_err(|e| e.to_string())?;
+    Ok((output, shot.horizon()))
 }
 
 fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
@@ -208,13 +231,17 @@ fn shot(arguments: &Arguments) -> Result<Shot, Failure> {
         camera.ray(x, y)
     };
     let ray = ray.map_err(|e| Failure::Input(e.to_string()))?;
+    Ok(of_scene(&scene, ray))
+}
+
+/// A ray in a scene.
+fn of_scene(scene: &Scene, ray: Ray) -> Shot {
     let follower = if scene.objects.is_empty() {
-        Follower::Alone(tracer(&scene, Level::best()))
+        Follower::Alone(tracer(scene, Level::best()))
     } else {
-        Follower::Among(obstacle_tracer(&scene), world(&scene))
+        Follower::Among(obstacle_tracer(scene), world(scene))
     };
-    let element = scene.spacetime.text().cloned();
-    Ok(Shot { spin, element, ray, follower })
+    Shot { spin: scene.spacetime.spin(), element: scene.spacetime.text().cloned(), ray, follower }
 }
 
 /// A hole without a scene.

@@ -40,10 +40,21 @@ pub struct Options<'a> {
     pub starts: Vec<Vec<f64>>,
     /// Is told what is being done.
     pub progress: &'a (dyn Fn(&str) + Sync),
+    /// Is told what is known by then.
+    pub interim: Option<&'a (dyn Fn(Interim<'_>) + Sync)>,
     /// Whether to stop.
     pub cancelled: &'a (dyn Fn() -> bool + Sync),
     /// Keeps a round of chains under its number; and gives what was kept.
     pub keeper: Option<&'a dyn Keeper>,
+}
+
+/// What is known of a fit before its end.
+#[derive(Clone, Copy, Debug)]
+pub enum Interim<'a> {
+    /// The model's picture where the posterior is highest, along the rows.
+    Best(&'a [f64]),
+    /// What the draws so far say of each parameter.
+    Estimates(&'a [Estimate]),
 }
 
 /// What keeps rounds of chains, so that an interrupted fit goes on.
@@ -183,6 +194,12 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     });
     let values = &modes[0].evaluation.values;
     let best = model.predict(&values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
+    let tell = |known: Interim<'_>| {
+        if let Some(interim) = options.interim {
+            interim(known);
+        }
+    };
+    tell(Interim::Best(&best.values));
     let revised = models.revised(image, &best.values);
     let assumed = revised.as_ref().unwrap_or(&assumed);
     let posterior =
@@ -225,6 +242,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         }
         kept_rounds += 1;
         estimates = summarise(&model, &posterior, &modes[0], &all, image.pixel);
+        tell(Interim::Estimates(&estimates));
         let done = estimates.iter().all(|estimate| estimate.converged(options.aim));
         if done || kept_rounds + 1 >= options.rounds {
             break;

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::Observed;
 use crate::evidence::Test;
-use crate::fit::{AIM, Fit, FitError, Image, Keeper, Models, Options, fit};
+use crate::fit::{AIM, Fit, FitError, Image, Interim, Keeper, Models, Options, fit};
 use crate::model::{Freedom, Parameter};
 use crate::models::{Choice, Name};
 use crate::question::Question;
@@ -34,6 +34,8 @@ pub struct Task {
 pub struct Watch<'a> {
     /// Is told what is being done.
     pub progress: &'a (dyn Fn(&str) + Sync),
+    /// Is told what is known by then.
+    pub interim: Option<&'a (dyn Fn(Interim<'_>) + Sync)>,
     /// Whether to stop.
     pub cancelled: &'a (dyn Fn() -> bool + Sync),
     /// Keeps rounds of chains.
@@ -149,6 +151,7 @@ impl Ready {
             aim: AIM,
             starts: silhouettes.as_ref().map_or_else(Vec::new, |s| s.starts(&self.freedoms, watch.cancelled)),
             progress: watch.progress,
+            interim: watch.interim,
             cancelled: watch.cancelled,
             keeper: watch.keeper,
         };

@@ -138,7 +138,7 @@ pub fn fit(
             *signals.message.lock().unwrap_or_else(PoisonError::into_inner) = Some(text.to_owned());
         };
         let cancelled = || signals.cancelled.load(Ordering::Relaxed);
-        ready.run(&Watch { progress: &progress, cancelled: &cancelled, keeper: None })
+        ready.run(&Watch { progress: &progress, interim: None, cancelled: &cancelled, keeper: None })
     })?;
     let found = found.map_err(|error| match error {
         FitError::Keeper(fault) => PyRuntimeError::new_err(fault),

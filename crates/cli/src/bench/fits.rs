@@ -161,6 +161,7 @@ fn whole(threads: u32) -> Result<Whole, Failure> {
         aim: AIM,
         starts: Vec::new(),
         progress: &|_| {},
+        interim: None,
         cancelled: &|| false,
         keeper: None,
     };

@@ -146,6 +146,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let flag = progress::stop_flag();
     let watch = Watch {
         progress: &|text| bar.set_message(text.to_owned()),
+        interim: None,
         cancelled: &|| flag.load(Ordering::Relaxed),
         keeper: kept.as_ref().map(|kept| kept as &dyn Keeper),
     };

@@ -10,3 +10,6 @@ mod render;
 mod resume;
 mod spacetime;
 mod survey;
+mod view;
+mod view_abuse;
+mod view_page;

@@ -47,6 +47,7 @@ fn run(
         aim: AIM,
         starts: Vec::new(),
         progress: &|_| {},
+        interim: None,
         cancelled,
         keeper,
     };

@@ -183,6 +183,7 @@ fn found(image: &Image) -> (Fit, Test) {
         aim: AIM,
         starts: Vec::new(),
         progress: &|_| {},
+        interim: None,
         cancelled: &|| false,
         keeper: None,
     };

@@ -5,8 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::legs::{Legs, Surface as ThingSurface};
+use super::props::Props;
 use super::tracer::obstacle_tracer;
-use crate::disk::{Disk, Emission, Matter, Picture, Plane, Ring, Surface};
+use crate::disk::{Disk, Emission, Matter, Picture, Plane, Surface};
 use crate::display::srgb;
 use crate::light::Light;
 use crate::material::{Finish, Material, Noise, Pattern};
@@ -19,9 +20,9 @@ fn linear(color: [f64; 3]) -> Light {
     Light::new(color.map(srgb::decode))
 }
 
-pub(super) fn disk(disk: &scene::Disk) -> Result<Disk, TextureError> {
+pub(super) fn disk(disk: &scene::Disk, props: &Props) -> Result<Disk, TextureError> {
     let surface = match &disk.surface {
-        scene::Surface::Ring { seed } => Surface::Ring(Ring::new(*seed)),
+        scene::Surface::Ring { seed } => Surface::Ring(props.ring(*seed)),
         scene::Surface::Picture { path, mapping } => {
             Surface::Picture(Picture { texture: Texture::load(path)?, mapping: *mapping })
         }

@@ -10,7 +10,7 @@ use super::legs::Legs;
 use super::probe::Probe;
 use super::setting;
 use super::tracer::tracer;
-use super::{Channel, Sampler};
+use super::{Channel, Props, Sampler};
 use crate::camera::Camera;
 use crate::disk::{Disk, Plane, Surface};
 use crate::light::Radiance;
@@ -21,6 +21,7 @@ use crate::spacetime::geodesic::{Integrator, Query, Scheme, Tracer};
 use crate::spacetime::metric::Metric;
 use crate::spacetime::observer::{ObserverError, Patch};
 use crate::texture::TextureError;
+use std::sync::Arc;
 
 /// Everything that a render needs.
 pub struct Stage {
@@ -32,9 +33,9 @@ pub struct Stage {
     probe: Probe,
     disk: Option<Disk>,
     legs: Option<Legs>,
-    sky: Sky,
+    sky: Arc<Sky>,
     /// That on the other side of a wormhole.
-    other_sky: Sky,
+    other_sky: Arc<Sky>,
     /// Angle that a pixel at the middle of the picture covers on the sky if nothing bends light.
     pixel: f64,
     sampler: Sampler,
@@ -68,7 +69,15 @@ impl Stage {
     /// # Errors
     /// If a picture cannot be read.
     pub fn with_level(scene: &Scene, level: Level) -> Result<Self, StageError> {
-        let disk = scene.disk.as_ref().map(setting::disk).transpose()?;
+        Self::with_props(scene, level, &Props::default())
+    }
+
+    /// The same with what was made for other stages, if it is meant to look the same.
+    ///
+    /// # Errors
+    /// If a picture cannot be read.
+    pub fn with_props(scene: &Scene, level: Level, props: &Props) -> Result<Self, StageError> {
+        let disk = scene.disk.as_ref().map(|disk| setting::disk(disk, props)).transpose()?;
         let query = Query {
             plane: disk.as_ref().map_or(Plane::EQUATOR, |disk| disk.plane).normal(),
             max_crossings: if disk.is_some() { scene.render.max_crossings as usize } else { 0 },
@@ -86,8 +95,11 @@ impl Stage {
             query,
             disk,
             legs: setting::legs(scene)?,
-            sky: setting::sky(&scene.sky, pixel)?,
-            other_sky: scene.other_sky.as_ref().map_or(Ok(Sky::Black), |other| setting::sky(other, pixel))?,
+            sky: props.sky(&scene.sky, pixel)?,
+            other_sky: match &scene.other_sky {
+                Some(other) => props.sky(other, pixel)?,
+                None => Arc::new(Sky::Black),
+            },
             pixel,
             sampler: Sampler::new(scene.render.samples, scene.render.seed, scene.render.jitter),
             adaptive: scene.render.adaptive,
@@ -199,6 +211,6 @@ impl Stage {
 
     /// Whether the sky looks different in different directions.
     pub(super) fn sky_varies(&self) -> bool {
-        [&self.sky, &self.other_sky].iter().any(|sky| !matches!(sky, Sky::Black | Sky::Uniform(_)))
+        [&self.sky, &self.other_sky].iter().any(|sky| !matches!(***sky, Sky::Black | Sky::Uniform(_)))
     }
 }

@@ -9,6 +9,7 @@ use super::glow::Glow;
 use super::orientation::{Orientation, vector};
 use crate::light::Light;
 use crate::spacetime::tensor::Vec3;
+use rayon::prelude::*;
 
 /// Solid angle of white, in steradians, that shines as much as a star of magnitude 0.
 const MAGNITUDE_ZERO: f64 = 1e-4;
@@ -91,12 +92,18 @@ impl Stars {
         let scale = brightness * MAGNITUDE_ZERO / solid_angle;
         let cells = (FRAC_PI_4 / width).clamp(1.0, CELLS) as usize;
 
+        let place = |index: f64| (100.0 * index + 100.0).round() as usize % 1024;
+        let stars: Vec<Star> = Star::catalogue().collect();
         let mut colors = vec![None; 1024];
-        let drawn: Vec<(Spot, Vec<usize>)> = Star::catalogue()
+        for star in &stars {
+            let index = star.color_index.unwrap_or(WHITE);
+            colors[place(index)].get_or_insert_with(|| color::of_index(index));
+        }
+        let drawn: Vec<(Spot, Vec<usize>)> = stars
+            .par_iter()
             .map(|star| {
                 let index = star.color_index.unwrap_or(WHITE);
-                let color = colors[(100.0 * index + 100.0).round() as usize % 1024]
-                    .get_or_insert_with(|| color::of_index(index));
+                let color = colors[place(index)].unwrap_or([1.0; 3]);
                 let towards = vector(star.right_ascension.to_radians(), star.declination.to_radians());
                 let [all, none] = HALO_MAGNITUDES;
                 let share = HALO * ((none - star.magnitude) / (none - all)).clamp(0.0, 1.0);
@@ -180,6 +187,10 @@ fn touched(towards: [f64; 3], chord: f64, cells: usize) -> Vec<usize> {
     let mut all = Vec::new();
     for face in 0..6 {
         let [c, a, b] = cube::components(face, towards);
+        // A face's corner is where c = 1/√3, and cosines change by no more than angles do.
+        if c < 0.57 - radius {
+            continue;
+        }
         // The planes through the face's other axis that the spot touches are at these angles from
         // the normal.
         let range = |a: f64| {

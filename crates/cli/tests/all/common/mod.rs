@@ -1,5 +1,7 @@
 //! Running the program as a user would.
 
+pub mod served;
+
 use std::path::Path;
 use std::process::{Command, Output};
 

@@ -122,7 +122,7 @@ impl Stage {
         let unbent = self.pixel / (views.len() as f64).sqrt();
         let angles = [(&self.sky, false), (&self.other_sky, true)].map(|(sky, other_side)| {
             let seen = views.iter().filter_map(|view| view.sky);
-            match sky {
+            match **sky {
                 Sky::Panorama(_) => {
                     let seen = seen.filter(|origin| origin.other_side == other_side);
                     footprint(seen.map(|origin| origin.direction), unbent)
