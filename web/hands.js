@@ -82,6 +82,11 @@ export function hands(canvas, hold) {
 
   canvas.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === "Enter") {
+      event.preventDefault();
+      hold.point(0.5, 0.5);
+      return;
+    }
     const step = event.shiftKey ? 10 : 2;
     /** @type {Record<string, Gesture>} */
     const gestures = {

@@ -71,7 +71,13 @@ impl Painter {
 
     fn show(&mut self, view: &View) -> Result<(), End> {
         let scene = match self.house.stock.scene(view, view.samples) {
-            Ok(scene) => scene,
+            Ok(mut scene) => {
+                // A legend below the picture would move everything in it.
+                if let Some(layer) = &mut scene.display.layer {
+                    layer.legend = false;
+                }
+                scene
+            }
             Err(refusal) => return self.tell(&Notice::refusal(view.generation, &refusal)),
         };
         let kind = kind(&scene);
