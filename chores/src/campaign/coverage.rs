@@ -169,6 +169,7 @@ fn one(number: usize) -> Result<Run, String> {
         aim: AIM,
         starts: Vec::new(),
         progress: &|_| {},
+        interim: None,
         cancelled: &|| false,
         keeper: None,
     };
