@@ -145,6 +145,8 @@ function prune(set) {
   for (const key of new Set(SETTINGS.map((setting) => setting.key))) {
     const some = SETTINGS.filter((setting) => setting.key === key);
     if (key.startsWith("page.") || some.some(({ when }) => when?.(would) ?? true)) continue;
+    // What the base says was taken out before: it stays out.
+    if (left[key] === null) continue;
     delete left[key];
     if (course.look.base !== "built-in" && at(scene, key) !== undefined) left[key] = null;
   }

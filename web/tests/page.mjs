@@ -136,6 +136,21 @@ for (const name of presets.filter((name) => /two holes|well|room|balls|earth|fig
   assert.equal(await page.isVisible("#faults"), false, `${name}: ${await page.textContent("#faults")}`);
 }
 
+// From one thing to another: keys of the base that lose their meaning are taken out with it.
+const choose = (key, label) => page.locator(`[data-key='${key}']:not([hidden]) select`).selectOption({ label });
+await page.selectOption("#preset", { label: "A disk by physics" });
+await still();
+for (const [key, label] of [
+  ["disk.model", "orange ring, drawn"], ["disk.model", "none"], ["disk.model", "Page–Thorne, physical"],
+  ["spacetime.name", "Kerr–Newman: turns, charged"], ["spacetime.name", "Ellis's wormhole"], ["spacetime.name", "Kerr: turns"],
+]) {
+  const seen = await page.evaluate(() => window.kerrscope.frames);
+  await choose(key, label);
+  await page.waitForFunction((before) => window.kerrscope.frames > before || !document.querySelector("#faults").hidden, seen, { timeout: 60000 });
+  await page.waitForTimeout(100);
+  assert.equal(await page.isVisible("#faults"), false, `${label}: ${await page.textContent("#faults")}`);
+}
+
 // A pixel's ray.
 await page.selectOption("#preset", { label: "As in a film" });
 await still();
