@@ -6,6 +6,7 @@ import signal
 import threading
 import time
 
+import h5py
 import numpy as np
 import pytest
 
@@ -47,7 +48,7 @@ def local(plan, tmp_path_factory):
 def test_plans(plan, tmp_path):
     assert len(plan) == 20
     assert plan.keys == ["spacetime.spin", "disk.outer"]
-    assert plan[3].values == {"spacetime.spin": 0.1, "disk.outer": 20}
+    assert plan[3].values == {"spacetime.spin": pytest.approx(0.1, rel=1e-15), "disk.outer": 20}
     assert pickle.loads(pickle.dumps(plan)) == plan
     plan.write(tmp_path / "plan.json")
     assert survey.plan(tmp_path / "plan.json") == plan
@@ -71,8 +72,8 @@ def test_shards_merge_to_the_same(plan, local, tmp_path):
     library = survey.open_library(tmp_path / "whole.h5")
     assert library.sizes == {"task": 20, "y": 24, "x": 32}
     assert np.array_equal(library["spacetime.spin"], [t.values["spacetime.spin"] for t in plan])
-    image = kerrscope.open(local / f"{plan[7].name}.h5").to_xarray()
-    assert np.array_equal(library["intensity"][7], image["intensity"])
+    with h5py.File(local / f"{plan[7].name}.h5") as result:
+        assert np.array_equal(library["intensity"][7], result["intensity"][()])
     with pytest.raises(ValueError, match="missing"):
         survey.merge(plan, tmp_path / "1", tmp_path / "some.h5")
     with pytest.raises(ValueError, match="4/3"):
@@ -108,10 +109,6 @@ def test_a_cluster_that_loses_a_worker(tmp_path):
     assert status["repeated"] == 0
 
 
-def test_a_picture_that_fails_does_not_stop_others(tmp_path):
-    tilted = survey.plan(
-        'set = { "render.width" = 16, "render.height" = 16, "render.samples" = 1 }\n'
-        '[[axis]]\nkey = "observer.distance"\nvalues = [1.5, 30]\n'
-    )
-    report = survey.run(tilted, folder=tmp_path)
-    assert report.made + len(report.failed) == 2
+def test_scenes_that_cannot_be_are_told_before_anything_is_made():
+    with pytest.raises(ValueError, match="static limit"):
+        survey.plan('[[axis]]\nkey = "observer.distance"\nvalues = [1.5, 30]\n')
