@@ -179,8 +179,7 @@ fn make(arguments: &Run, quiet: bool) -> Result<(), Failure> {
     let path = folder_of(&arguments.survey, arguments.folder.as_ref());
     let folder = Folder::create(&path).map_err(|e| Failure::Failed(e.to_string()))?;
     let shard = arguments.shard.unwrap_or(Shard::WHOLE);
-    let mine = plan.tasks.iter().enumerate().filter(|(number, _)| shard.has(*number));
-    let missing = mine.filter(|(_, task)| !folder.has(task)).count();
+    let missing = plan.missing(&folder, shard).len();
     let bar = progress::count(missing as u64, quiet);
     let processors = || std::thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let threads = arguments.threads.unwrap_or_else(processors);

@@ -88,11 +88,11 @@ impl Plan {
         Ok((scene.to_toml(), self.plan.folder.clone()))
     }
 
-    /// Numbers of the tasks whose results are not in a folder.
-    fn missing(&self, folder: PathBuf) -> PyResult<Vec<usize>> {
+    /// Numbers of the tasks of a part whose results are not in a folder.
+    #[pyo3(signature = (folder, shard = None))]
+    fn missing(&self, folder: PathBuf, shard: Option<&str>) -> PyResult<Vec<usize>> {
         let folder = Folder::create(&folder).map_err(|error| faults::file(&error))?;
-        let tasks = self.plan.tasks.iter().enumerate();
-        Ok(tasks.filter(|(_, task)| !folder.has(task)).map(|(number, _)| number).collect())
+        Ok(self.plan.missing(&folder, part(shard)?))
     }
 
     /// The bytes of a task's result.
@@ -135,9 +135,9 @@ impl Plan {
         threads: Option<usize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Vec<(usize, String)>> {
-        let shard = shard.map_or(Ok(Shard::WHOLE), str::parse).map_err(faults::wrong)?;
-        let total = self.missing(folder.clone())?.into_iter().filter(|number| shard.has(*number)).count();
+        let shard = part(shard)?;
         let folder = Folder::create(&folder).map_err(|error| faults::file(&error))?;
+        let total = self.plan.missing(&folder, shard).len();
         let told = progress.as_ref().map_or(Told::Nothing, |call| Told::Count(call, total as u64));
         let count = work::pool(threads)?.current_num_threads();
         let threads = count.try_into().map_err(|_| faults::wrong("there are no threads"))?;
@@ -183,6 +183,11 @@ impl Plan {
 #[pyfunction]
 pub fn worker() -> String {
     worker_name()
+}
+
+/// A part as it is written, `K/N`; all if none is given.
+fn part(shard: Option<&str>) -> PyResult<Shard> {
+    shard.map_or(Ok(Shard::WHOLE), str::parse).map_err(faults::wrong)
 }
 
 fn unplanned(error: &PlanError) -> PyErr {

@@ -2,7 +2,7 @@
 
 use super::matter::Profile;
 use super::picture::{Fineness, Painter, Setting};
-use super::screen::{Frame, Projection};
+use super::screen::Projection;
 use super::source::{Disk, Kind};
 use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
@@ -90,21 +90,9 @@ impl Source for Lit {
             return Err(Unpredictable("as many parameters".to_owned()));
         };
         let Bins { factor, shift } = self.outline.bins;
-        let frame = Frame {
-            size,
-            scale: scale * factor,
-            center: [(x - shift[0]) / factor, (y - shift[1]) / factor],
-            position_angle: position_angle.to_radians(),
-        };
-        let setting = Setting {
-            spin,
-            inclination: inclination.to_radians(),
-            u: distance.recip(),
-            inner,
-            outer,
-            profile: Profile::Even,
-            frame,
-        };
+        let [x, y] = [(x - shift[0]) / factor, (y - shift[1]) / factor];
+        let binned = [inclination, position_angle, scale * factor, x, y, distance, inner, outer];
+        let setting = Setting::of(spin, binned, Profile::Even, size);
         let unseen = |_| {
             Unpredictable(format!(
                 "a disk around a hole of spin {spin:.4}, seen from {inclination:.3}°, {distance} M away, {scale:.4} M a pixel"

@@ -331,6 +331,21 @@ fn thinned(rows: &[f64], order: usize) -> Vec<f64> {
 }
 
 impl Setting {
+    /// From the parameters that all disks have, in their order (inclination and position angle in degrees, M in a pixel, centre in pixels,
+    /// r of the observer, edges), in a picture of a size.
+    pub(super) fn of(spin: f64, common: [f64; 8], profile: Profile, size: [usize; 2]) -> Self {
+        let [inclination, position_angle, scale, x, y, distance, inner, outer] = common;
+        Self {
+            spin,
+            inclination: inclination.to_radians(),
+            u: distance.recip(),
+            inner,
+            outer,
+            profile,
+            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
+        }
+    }
+
     /// Radius of the inner edge, and its derivatives in spin and `inner`, from the radius of the last stable orbit and its derivative.
     fn inner_edge(&self, (isco, isco_rate): (f64, f64)) -> (f64, [f64; 2]) {
         if self.profile != Profile::Even {

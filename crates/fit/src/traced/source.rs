@@ -3,7 +3,7 @@
 use super::canvas::CHANNELS;
 use super::matter::Profile;
 use super::picture::{Fineness, Painter, Setting, Unseen};
-use super::screen::{Frame, Projection};
+use super::screen::Projection;
 use crate::model::{Cancelled, Freedom, Parameter, Prediction, Source, Unpredictable};
 use crate::prior::Prior;
 
@@ -14,6 +14,16 @@ pub enum Kind {
     PageThorne,
     /// r^−q.
     PowerLaw,
+}
+
+impl Kind {
+    /// F(r), with the index of a power law.
+    pub(super) fn profile(self, index: f64) -> Profile {
+        match self {
+            Self::PageThorne => Profile::PageThorne,
+            Self::PowerLaw => Profile::PowerLaw { index },
+        }
+    }
 }
 
 /// A thin disk on circular geodesics, in the light of all frequencies, I = g⁴F/π.
@@ -38,21 +48,11 @@ impl Disk {
     }
 
     fn setting(&self, values: &[f64], size: [usize; 2]) -> Result<Setting, Unpredictable> {
-        let [spin, inclination, position_angle, scale, x, y, distance, inner, outer] = values[..9] else {
+        let (Some([spin, common @ ..]), index) = (values.first_chunk::<9>(), values.get(9)) else {
             return Err(Unpredictable("too few parameters".to_owned()));
         };
-        Ok(Setting {
-            spin,
-            inclination: inclination.to_radians(),
-            u: distance.recip(),
-            inner,
-            outer,
-            profile: match self.kind {
-                Kind::PageThorne => Profile::PageThorne,
-                Kind::PowerLaw => Profile::PowerLaw { index: values[9] },
-            },
-            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
-        })
+        let profile = self.kind.profile(index.copied().unwrap_or_default());
+        Ok(Setting::of(*spin, *common, profile, size))
     }
 
     /// The change with the position angle χ, per radian, of a disk that is seen nearly face-on: with the axis at
@@ -220,5 +220,29 @@ impl Source for Disk {
                 start
             })
             .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The change with the roll near face-on, which is that of pictures aside, goes over into that of the lines: over the inclination both
+    /// are the same to what lines are off by, 1e-3 of the brightest over 5e-3 rad and less in the mean.
+    #[test]
+    fn turning_is_smooth_towards_face_on() {
+        let disk = Disk::new(Kind::PageThorne, true, Projection::Angular, Fineness::default());
+        let turned = |inclination: f64| {
+            let values = [0.6, inclination, 25.0, 0.9, 0.3, -0.2, 1000.0, 1.0, f64::INFINITY];
+            let drawn = disk.draw(&values, [32, 32], true).unwrap();
+            drawn.derivatives[2].iter().map(|d| d / inclination).collect::<Vec<f64>>()
+        };
+        let limit = FACE_ON.to_degrees();
+        let [aside, lines, far] = [0.98 * limit, 1.02 * limit, 1e-3 * limit].map(turned);
+        let size = |d: &[f64]| d.iter().map(|d| d * d).sum::<f64>().sqrt();
+        let off =
+            |a: &[f64], b: &[f64]| size(&a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>()) / size(b);
+        println!("{:.1e} {:.1e}", off(&aside, &lines), off(&far, &aside));
+        assert!(off(&aside, &lines) < 0.05 && off(&far, &aside) < 0.02);
     }
 }

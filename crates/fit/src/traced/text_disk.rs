@@ -3,10 +3,9 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
-use super::matter::Profile;
 use super::picture::{Fineness, Image, Painter, Setting, Stand};
 use super::ratio::{Base, Critical, Moved, Sought};
-use super::screen::{Frame, Projection};
+use super::screen::Projection;
 use super::sight::Sight;
 use super::source::Kind;
 use super::spacetime::Spacetime;
@@ -78,20 +77,8 @@ impl TextDisk {
     }
 
     fn setting(&self, spin: f64, common: &[f64], index: f64, size: [usize; 2]) -> Setting {
-        let [inclination, position_angle, scale, x, y, distance, inner, outer] =
-            std::array::from_fn(|k| common[k]);
-        Setting {
-            spin,
-            inclination: inclination.to_radians(),
-            u: distance.recip(),
-            inner,
-            outer,
-            profile: match self.kind {
-                Kind::PageThorne => Profile::PageThorne,
-                Kind::PowerLaw => Profile::PowerLaw { index },
-            },
-            frame: Frame { size, scale, center: [x, y], position_angle: position_angle.to_radians() },
-        }
+        let profile = self.kind.profile(index);
+        Setting::of(spin, std::array::from_fn(|k| common[k]), profile, size)
     }
 
     /// The picture and its derivatives with respect to all parameters, in their order.

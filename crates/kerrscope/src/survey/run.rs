@@ -1,6 +1,6 @@
 //! Making the pictures of a survey.
 
-use std::collections::VecDeque;
+use std::collections::{HashSet, VecDeque};
 use std::num::NonZeroUsize;
 use std::str::FromStr;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -40,6 +40,18 @@ impl FromStr for Shard {
             Some((k @ 1.., count)) if k <= NonZeroUsize::get(count) => Ok(Self { number: k - 1, count }),
             _ => Err(format!("{text:?} is no part: give K/N, K from 1 to N, as 2/3")),
         }
+    }
+}
+
+impl Plan {
+    /// Numbers of the tasks of a part whose results are not in a folder; of tasks that are the same picture, the first.
+    pub fn missing(&self, folder: &Folder, shard: Shard) -> Vec<usize> {
+        let mut seen = HashSet::new();
+        let tasks = self.tasks.iter().enumerate();
+        let missing = tasks.filter(|(number, task)| {
+            shard.has(*number) && !folder.has(task) && seen.insert(task.name.as_str())
+        });
+        missing.map(|(number, _)| number).collect()
     }
 }
 
@@ -118,11 +130,8 @@ pub fn run(
 ) -> Result<Vec<Failed>, TaskError> {
     plan.level()?;
     folder.keep_plan(plan)?;
-    let tasks = plan.tasks.iter().enumerate();
-    let mut seen = std::collections::HashSet::new();
-    let missing: VecDeque<(usize, &Task)> = tasks
-        .filter(|(number, task)| shard.has(*number) && !folder.has(task) && seen.insert(task.name.as_str()))
-        .collect();
+    let missing: VecDeque<(usize, &Task)> =
+        plan.missing(folder, shard).into_iter().map(|number| (number, &plan.tasks[number])).collect();
     // Small pictures are made best side by side, each on a thread; a few large ones share all threads.
     let workers = threads.get().min(missing.len()).max(1);
     let each = |worker: usize| (threads.get() + worker) / workers;

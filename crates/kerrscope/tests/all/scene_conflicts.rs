@@ -1,28 +1,9 @@
 //! Scenes whose keys are right one by one and wrong together.
 
+use crate::common::{Expected, assert_faults, faults};
 use std::path::Path;
 
-use kerrscope::scene::{Faults, Scene};
-
-/// Line, column, message, mend.
-type Expected<'a> = (usize, usize, &'a str, &'a str);
-
-fn faults(text: &str) -> Faults {
-    Scene::from_toml(text, Path::new("/nowhere")).expect_err("the scene is wrong")
-}
-
-#[track_caller]
-fn assert_faults(text: &str, expected: &[Expected]) {
-    let faults = faults(text);
-    let found: Vec<Expected> = faults
-        .iter()
-        .map(|fault| {
-            let (line, column) = fault.line_column().expect("the fault has a place");
-            (line, column, fault.message.as_str(), fault.help.as_str())
-        })
-        .collect();
-    assert_eq!(found, expected, "\n{faults}");
-}
+use kerrscope::scene::Scene;
 
 #[test]
 fn impossible_observers() {

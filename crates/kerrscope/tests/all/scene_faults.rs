@@ -1,28 +1,8 @@
 //! Wrong scenes: each fault is found, at its place, with its mend.
 
-use std::path::Path;
+use crate::common::assert_faults;
 
-use kerrscope::scene::{Faults, Scene};
-
-/// Line, column, message, mend.
-type Expected<'a> = (usize, usize, &'a str, &'a str);
-
-fn faults(text: &str) -> Faults {
-    Scene::from_toml(text, Path::new("/nowhere")).expect_err("the scene is wrong")
-}
-
-#[track_caller]
-fn assert_faults(text: &str, expected: &[Expected]) {
-    let faults = faults(text);
-    let found: Vec<Expected> = faults
-        .iter()
-        .map(|fault| {
-            let (line, column) = fault.line_column().expect("the fault has a place");
-            (line, column, fault.message.as_str(), fault.help.as_str())
-        })
-        .collect();
-    assert_eq!(found, expected, "\n{faults}");
-}
+use kerrscope::scene::Scene;
 
 #[test]
 fn unknown_keys() {

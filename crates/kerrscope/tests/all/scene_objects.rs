@@ -1,5 +1,6 @@
 //! Things in scenes: their keys, and what cannot be.
 
+use crate::common::assert_faults;
 use std::fmt::Write;
 use std::path::Path;
 
@@ -10,22 +11,6 @@ use kerrscope::spacetime::observer::Drift;
 
 fn scene(text: &str) -> Scene {
     Scene::from_toml(text, Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap_or_else(|faults| panic!("{faults}"))
-}
-
-/// Line, column, message, mend.
-type Expected<'a> = (usize, usize, &'a str, &'a str);
-
-#[track_caller]
-fn assert_faults(text: &str, expected: &[Expected]) {
-    let faults = Scene::from_toml(text, Path::new("/nowhere")).expect_err("the scene is wrong");
-    let found: Vec<Expected> = faults
-        .iter()
-        .map(|fault| {
-            let (line, column) = fault.line_column().expect("the fault has a place");
-            (line, column, fault.message.as_str(), fault.help.as_str())
-        })
-        .collect();
-    assert_eq!(found, expected, "\n{faults}");
 }
 
 #[test]

@@ -72,9 +72,10 @@ class Plan(Sequence[Task]):
         text, folder = self._core.scene(range(len(self))[number])
         return Scene.from_toml(text, folder=folder)
 
-    def missing(self, folder: str | PathLike[str]) -> list[int]:
-        """Numbers of the tasks whose results are not in a folder."""
-        return self._core.missing(os.fspath(folder))
+    def missing(self, folder: str | PathLike[str], shard: str | None = None) -> list[int]:
+        """Numbers of the tasks, all or those of a part "K/N", whose results are not in a folder; of tasks that are the same picture, the
+        first. `ValueError` if the part is none."""
+        return self._core.missing(os.fspath(folder), shard)
 
     def write(self, path: str | PathLike[str]) -> None:
         """Writes the plan as JSON, for `kerrscope survey run` on machines like this one."""
@@ -170,12 +171,12 @@ def run(
     start = time.perf_counter()
     where = os.path.abspath(os.fspath(folder))
     if client is None:
-        before = len(_part(plan.missing(where), shard))
+        before = len(plan.missing(where, shard))
         failed = dict(plan._core.run(where, shard, threads, progress))
         return Report(before - len(failed), time.perf_counter() - start, failed)
     if threads is not None:
         raise ValueError("threads: the cluster's workers have theirs; leave it out, or the client")
-    missing = _part(plan.missing(where), shard)
+    missing = plan.missing(where, shard)
     plan._core.keep_plan(where)
     mark = Path(where) / f".shared-{uuid.uuid4().hex}"
     mark.touch()
@@ -184,18 +185,6 @@ def run(
     finally:
         mark.unlink(missing_ok=True)
     return Report(len(missing) - len(failed), time.perf_counter() - start, failed)
-
-
-def _part(numbers: list[int], shard: str | None) -> list[int]:
-    if shard is None:
-        return numbers
-    try:
-        k, n = (int(word) for word in shard.split("/"))
-    except ValueError:
-        k, n = 0, 0
-    if not 1 <= k <= n:
-        raise ValueError(f"shard {shard!r} is no part: give K/N, K from 1 to N, as '2/3'")
-    return [number for number in numbers if number % n == k - 1]
 
 
 def _on_cluster(
@@ -208,9 +197,7 @@ def _on_cluster(
 ) -> dict[int, str]:
     distributed = need("distributed", "dask", "running a survey on a cluster")
     core, names = plan._core, plan._core.names
-    # Two tasks of a plan may be the same picture.
-    numbers = {names[number]: number for number in reversed(missing)}
-    waiting = iter(sorted(numbers.values()))
+    waiting = iter(missing)
     run_id = uuid.uuid4().hex[:8]
 
     def submit(number: int) -> Any:

@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use kerrscope::render::{Film, Replay, Stage, Tally, Watch, draw};
-use kerrscope::scene::Scene;
+use kerrscope::scene::{Faults, Scene};
 
 /// A scene without a disk, from the rest of its text; `[render]` is not in it.
 pub fn scene(text: &str) -> Scene {
@@ -67,4 +67,26 @@ pub fn converges(text: &str, exact: f64, samples: &[u32]) {
     }
     let slope = slope(&points);
     assert!((slope + 0.5).abs() < 0.05, "{slope} {points:?}");
+}
+
+/// Line, column, message, mend.
+pub type Expected<'a> = (usize, usize, &'a str, &'a str);
+
+/// What is wrong with a scene.
+pub fn faults(text: &str) -> Faults {
+    Scene::from_toml(text, Path::new("/nowhere")).expect_err("the scene is wrong")
+}
+
+/// Holds all that is wrong with a scene to what is expected, in its order.
+#[track_caller]
+pub fn assert_faults(text: &str, expected: &[Expected]) {
+    let faults = faults(text);
+    let found: Vec<Expected> = faults
+        .iter()
+        .map(|fault| {
+            let (line, column) = fault.line_column().expect("the fault has a place");
+            (line, column, fault.message.as_str(), fault.help.as_str())
+        })
+        .collect();
+    assert_eq!(found, expected, "\n{faults}");
 }
