@@ -75,6 +75,10 @@ struct Shown<'a> {
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        // A fault without a place is of the file as a whole: no snippet names it.
+        if self.fault.span.is_none() {
+            write!(f, "{}: ", self.fault.source.name)?;
+        }
         f.write_str(&self.fault.message)
     }
 }

@@ -186,4 +186,7 @@ fn faults_are_told_at_once() {
     assert_eq!(output.status.code(), Some(2));
     let output = run(folder.path(), &["survey", "status", "survey.toml"]);
     assert_eq!(output.status.code(), Some(2));
+    let output = run(folder.path(), &["survey", "run", "none.toml"]);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(errors.contains("none.toml: there is no such file"), "{errors}");
 }
