@@ -39,6 +39,9 @@ const LEAPING: f64 = 0.3;
 const GOOD: f64 = 0.5;
 const SHAPED: usize = 10;
 
+/// By how much less than with the best shape so far may succeed before that is gone back to.
+const WORSE: f64 = 0.05;
+
 /// Below this share of them, the draws' covariance is none to go on with.
 const STUCK: f64 = 0.1;
 
@@ -81,6 +84,8 @@ pub struct Chains {
     pub rounds: u64,
     /// Draws that leaps are shaped by.
     gathered: Vec<Vec<f64>>,
+    /// The shape with which most leaps succeeded, and the share that did.
+    best: Option<(f64, Metric)>,
 }
 
 impl Chains {
@@ -129,7 +134,14 @@ impl<S: Source> Field<'_, S> {
                 None
             })
             .collect();
-        Some(Chains { metric, members: chains?, trajectories: false, rounds: 0, gathered: Vec::new() })
+        Some(Chains {
+            metric,
+            members: chains?,
+            trajectories: false,
+            rounds: 0,
+            gathered: Vec::new(),
+            best: None,
+        })
     }
 
     /// A mode, by its weight.
@@ -198,21 +210,29 @@ impl<S: Source> Field<'_, S> {
                 let next = metric.shaped_by(&places());
                 Self::change(&mut chains, next);
             }
-        } else if round == 0 {
-            // Chains began wide: what comes now is a first shape alone.
-            let next = metric.shaped_by(&places());
-            Self::change(&mut chains, next);
         } else {
-            chains.trajectories = round + 1 == TRIED.len() && share < LEAPING;
+            if chains.best.as_ref().is_none_or(|(most, _)| share > *most) {
+                chains.best = Some((share, metric.clone()));
+            }
+            let most = chains.best.as_ref().map_or(0.0, |(most, _)| *most);
+            chains.trajectories = round + 1 == TRIED.len() && most < LEAPING;
             if chains.trajectories
-                && share < STUCK
+                && most < STUCK
                 && let Some(mode) = self.modes.first()
             {
                 // Draws that hardly moved have no shape.
                 Self::change(&mut chains, Metric::around(mode));
             } else if round < SHAPED && (round + 1 < TRIED.len() || share < GOOD) {
-                chains.gathered.extend(places());
-                let next = metric.shaped_by(&chains.gathered);
+                // Chains began wide: the first draws make a first shape alone.
+                let shape = if round == 0 {
+                    metric.shaped_by(&places())
+                } else {
+                    chains.gathered.extend(places());
+                    metric.shaped_by(&chains.gathered)
+                };
+                // What draws make of it may be worse: few of them, or a posterior that is no Gaussian.
+                let next =
+                    chains.best.clone().filter(|_| share < most - WORSE).map_or(shape, |(_, best)| best);
                 Self::change(&mut chains, next);
             }
         }

@@ -81,6 +81,12 @@ impl Reciprocal {
         let [value, slope] = between_logs(q, self.low, self.high);
         [value.recip(), -slope * value.powi(-2)]
     }
+
+    /// The coordinate of a value of it; none at the bounds and beyond.
+    pub fn of(&self, u: f64) -> Option<f64> {
+        let share = -(u * self.low).ln() / (self.high / self.low).ln();
+        (share > 1e-6 && share < 1.0 - 1e-6).then(|| (share / (1.0 - share)).ln())
+    }
 }
 
 /// A value between positive bounds, and its derivative.

@@ -11,6 +11,7 @@ use crate::noise;
 use crate::observed::Observed;
 use crate::search::modes;
 use crate::summary::Estimate;
+use crate::valley::follow;
 use crate::verdict;
 
 /// A picture to fit.
@@ -215,6 +216,11 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         if modes.is_empty() {
             return Err(FitError::NoStart);
         }
+    }
+    for mode in &mut modes {
+        let (shear, more) = follow(&posterior, mode, options.cancelled);
+        mode.shear = shear;
+        evaluations += more;
     }
     let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
     let mut chains = field.begin().ok_or(FitError::NoStart)?;

@@ -26,6 +26,7 @@ pub mod silhouette;
 pub mod summary;
 pub mod task;
 pub mod traced;
+mod valley;
 mod verdict;
 
 pub use blur::{FWHM, Kernel};

@@ -115,8 +115,9 @@ impl<S: Source> Posterior<'_, S> {
         let variances = self.noise.variances(scale.unwrap_or(0.0));
         let (mut chi2, mut logs, mut spread) = (0.0, 0.0, 0.0);
         let mut pulls = Vec::with_capacity(self.data.len());
-        // Fisher's information on ln s, and the gradient in it.
-        let (mut information, mut rise, mut bend) = (0.0, 0.0, 0.0);
+        // Fisher's information on ln s, the curvature in it where residuals are smaller than what is known of the errors explains, and
+        // the gradient.
+        let (mut information, mut small, mut rise, mut bend) = (0.0, 0.0, 0.0, 0.0);
         for (pixel, (datum, value)) in self.data.iter().zip(&prediction.values).enumerate() {
             let (variance, known) = (variances[pixel], self.noise.known[pixel]);
             let residual = datum - value;
@@ -127,9 +128,11 @@ impl<S: Source> Posterior<'_, S> {
             let share = 1.0 - known * known / variance;
             rise += share * (square - 1.0);
             information += 2.0 * share * share;
+            small += 2.0 * share * (share * square + (1.0 - share) * (1.0 - square));
             spread += share;
             bend += 2.0 * share * (1.0 - share);
         }
+        information = small.max(information);
         let likelihood = -0.5 * (chi2 + logs);
         let mut log = likelihood + place.prior;
         if let (Some(unknown), Some(q)) = (&self.noise.unknown, q.last()) {

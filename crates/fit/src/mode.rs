@@ -89,6 +89,17 @@ pub fn climb<S: Source>(
     most: usize,
     cancelled: Cancelled<'_>,
 ) -> Option<Mode> {
+    climb_holding(posterior, start, None, most, cancelled)
+}
+
+/// The same with one coordinate kept as it is.
+pub fn climb_holding<S: Source>(
+    posterior: &Posterior<'_, S>,
+    start: &[f64],
+    held: Option<usize>,
+    most: usize,
+    cancelled: Cancelled<'_>,
+) -> Option<Mode> {
     let mut place = start.to_vec();
     let mut here = posterior.at(&place, Ask::Curvature)?;
     let mut evaluations = 1;
@@ -101,9 +112,16 @@ pub fn climb<S: Source>(
         for k in 0..matrix.nrows() {
             matrix[(k, k)] *= 1.0 + damping;
         }
-        let step = factor(matrix).solve(&DVector::from_column_slice(&here.gradient));
+        let mut gradient = DVector::from_column_slice(&here.gradient);
+        if let Some(held) = held {
+            matrix.row_mut(held).fill(0.0);
+            matrix.column_mut(held).fill(0.0);
+            matrix[(held, held)] = 1.0;
+            gradient[held] = 0.0;
+        }
+        let step = factor(matrix).solve(&gradient);
         // What the step should gain.
-        let promise = step.dot(&DVector::from_column_slice(&here.gradient));
+        let promise = step.dot(&gradient);
         if promise < ENOUGH {
             converged = true;
             break;
