@@ -82,8 +82,10 @@ impl Fineness {
     pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2, tail: 1e-3 };
 }
 
-/// Numbers of directions in which images may be solved for, and up to which inclination the first are enough.
+/// Numbers of directions in which images may be solved for, and cosines of the inclinations up to which the first and the second are
+/// mostly enough (a = 0.9: tails of 2e-6 at 45°, 3e-6 at 70°).
 const DIRECTIONS: [usize; 5] = [32, 64, 128, 256, 512];
+const ENOUGH: [f64; 2] = [0.7, 0.35];
 
 /// A tail from which on a series that is half as long is looked at first.
 const COARSE: f64 = 3e-5;
@@ -268,13 +270,9 @@ impl Painter {
     /// The image of an order around a Kerr hole, and how it moves if asked for.
     pub(super) fn image(&self, stand: &Stand<'_>, order: usize, derivatives: bool) -> Result<Image, Unseen> {
         let view = &stand.view;
-        let mut first = if view.inclination.cos() > 0.5 { 1 } else { 2 };
-        if view.inclination.cos() < 0.2 {
-            first = 3;
-        }
-        if self.fineness.tail >= COARSE {
-            first -= 1;
-        }
+        let cos = view.inclination.cos();
+        let fine = ENOUGH.iter().filter(|least| cos < **least).count();
+        let first = if self.fineness.tail >= COARSE { fine.saturating_sub(1) } else { fine };
         for (choice, directions) in DIRECTIONS.into_iter().enumerate().skip(first) {
             let ends = stand.outers(order, directions);
             let nodes = solve(view, &self.landings, order, (stand.inner, &ends), derivatives)?;
