@@ -183,6 +183,9 @@ pub struct Painter {
 /// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
 const FAR_X: f64 = 0.02;
 
+/// Steps from above, as a share of the others.
+const CLOSEST: f64 = 0.3;
+
 /// Steps between which the rows of a disk are spread.
 const GRID: usize = 400;
 
@@ -253,7 +256,8 @@ impl Painter {
         let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
         for (order, image) in lines.iter().enumerate() {
             let before = if self.opaque { &lines[..order] } else { &[] };
-            let rows = thinned(&self.rows(matter, [*inner, stand.outer(order, 0.0)]), order);
+            let closer = self.closer(view.inclination);
+            let rows = thinned(&self.rows(matter, [*inner, stand.outer(order, 0.0)], closer), order);
             Painting { sketch: &sketch, image, before, rates, rows: &rows }
                 .draw(self.fineness.lines, &mut canvas);
         }
@@ -283,8 +287,16 @@ impl Painter {
         Err(Unseen)
     }
 
+    /// The steps between rows, in those of the fineness. Of a disk seen from above, spin, scale and distance change almost nothing but
+    /// the brightness along the radius, and what is straight between rows is mistaken for them: at 0°, a = 0.6, for 8e-3 of the spin
+    /// with whole steps; from 20° on for less than 5e-4.
+    fn closer(&self, inclination: f64) -> f64 {
+        let whole = if self.fineness.tail >= COARSE { 1.0 } else { (inclination.to_degrees() - 7.0) / 13.0 };
+        CLOSEST + (1.0 - CLOSEST) * whole.clamp(0.0, 1.0)
+    }
+
     /// t of the rows of the direct image: close where the flux bends.
-    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2]) -> Vec<f64> {
+    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2], closer: f64) -> Vec<f64> {
         if matter.even() {
             // What is the same everywhere has edges alone.
             return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
@@ -297,7 +309,7 @@ impl Painter {
             let relative = 2.0 * (inner - outer) / GRID as f64 / middle;
             let bend = matter.smoothness(middle, largest) * self.fineness.bend;
             let steps = (relative / self.fineness.step).max(relative * middle.powi(-2) / bend);
-            sums.push(sums[k] + steps);
+            sums.push(sums[k] + steps / closer);
         }
         let count = sums[GRID].ceil().clamp(8.0, 2000.0);
         let mut rows = Vec::new();
