@@ -1,4 +1,4 @@
-// A picture of anybody's: dropped here, measured, fitted, and shown beside its fit.
+// A picture of anybody's: dropped here, measured, fitted, and shown under its fit as that goes on.
 
 import { decode } from "./link.js";
 import { make, shown } from "./panel.js";
@@ -79,13 +79,8 @@ export class Observation {
       const name = NAMES[frame.generation] ?? "";
       canvas.setAttribute("role", "img");
       canvas.setAttribute("aria-label", `Picture: ${name}`);
-      const figure = make("figure");
-      figure.append(canvas, make("figcaption", { textContent: name }));
-      figure.dataset.name = name;
-      const before = this.pictures.querySelector(`[data-name="${name}"]`);
-      // The fit as it is by now takes the place of the one before.
-      if (before) before.replaceWith(figure);
-      else this.pictures.append(figure);
+      if (name === "fitted") this.cover(canvas);
+      else this.show(name, canvas);
       return;
     }
     const { kind, content } = JSON.parse(data);
@@ -101,6 +96,34 @@ export class Observation {
     } else {
       this.words.textContent = content.text;
     }
+  }
+
+  /** @param {string} name @param {HTMLCanvasElement} canvas */
+  show(name, canvas) {
+    const figure = make("figure");
+    const over = make("div", { className: "over" });
+    over.append(canvas);
+    figure.append(over, make("figcaption", { textContent: name }));
+    figure.dataset.name = name;
+    this.pictures.append(figure);
+  }
+
+  /** Lays the fit as it is by now over the picture, from a line on that a slider moves. @param {HTMLCanvasElement} canvas */
+  cover(canvas) {
+    const over = /** @type {HTMLElement | null} */ (this.pictures.querySelector("[data-name=observed] .over"));
+    if (!over) return;
+    canvas.className = "fit";
+    const before = over.querySelector(".fit");
+    if (before) {
+      before.replaceWith(canvas);
+      return;
+    }
+    over.append(canvas);
+    const slider = make("input", { type: "range", min: "0", max: "100", value: "50", ariaLabel: "Where the fit begins, from the left" });
+    slider.oninput = () => over.style.setProperty("--from", `${slider.value}%`);
+    const caption = /** @type {HTMLElement} */ (over.nextElementSibling);
+    caption.textContent = "observed to the left, fitted to the right";
+    caption.before(slider);
   }
 
   /** @param {{ size: [number, number], features: any }} content */

@@ -176,7 +176,7 @@ for (const format of ["png", "exr"]) {
   assert.ok(saved.equals(drawn), `the saved ${format} is another than that of render`);
 }
 
-// An observation: measured and fitted, shown beside its fit, and taken as a scene.
+// An observation: measured and fitted, shown under its fit, and taken as a scene.
 execFileSync(program, ["render", "-o", "seen.fits", ...[
   "disk.model=power-law", "disk.outer=12", "observer.distance=100", "observer.inclination=30", "screen.field_of_view=14",
   "sky.kind=black", "render.width=24", "render.height=24", "render.samples=16",
@@ -185,7 +185,13 @@ await page.click("#observe");
 await page.selectOption("#observed-model", "ring");
 await page.setInputFiles("#observed-file", path.join(folder, "seen.fits"));
 await page.waitForFunction(() => /converged/i.test(document.querySelector("#observer output").textContent), null, { timeout: 180000 });
-assert.equal(await page.locator(".pictures figure").count(), 3);
+assert.equal(await page.locator(".pictures figure").count(), 2);
+const [under, fit] = [".over canvas:not(.fit)", ".over .fit"].map((part) => page.locator(`[data-name=observed] ${part}`));
+assert.deepEqual(await fit.boundingBox(), await under.boundingBox(), "the fit lies over the picture");
+const covered = () => fit.evaluate((canvas) => getComputedStyle(canvas).clipPath);
+assert.match(await covered(), /50%/);
+await page.fill(".pictures input", "20");
+assert.match(await covered(), /20%/);
 assert.match(await page.textContent(".measured"), /24 × 24 pixels/);
 assert.match(await page.textContent(".fitted"), /diameter/);
 fs.writeFileSync(path.join(folder, "nothing.png"), "this is no picture");

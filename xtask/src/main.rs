@@ -1,6 +1,6 @@
 //! Chores of the repository.
 //!
-//!     cargo xtask test             every test
+//!     cargo xtask test             every test, with what they need (a Python environment, a browser)
 //!     cargo xtask python           tests of the Python package alone
 //!     cargo xtask wheel            the Python package as it is given to people, tried in a fresh environment
 //!     cargo xtask check            formatting, lints, documentation
@@ -13,6 +13,7 @@
 //!     cargo xtask earth-data FOLDER
 //!                                  data of the Earth again; see there too
 
+mod page;
 mod python;
 
 use std::path::{Path, PathBuf};
@@ -59,25 +60,12 @@ fn test() -> Result<(), String> {
     if let Err(fault) = &python {
         eprintln!("xtask: {fault}; tests that need Python are skipped");
     }
-    if let Err(fault) = page_tools() {
+    if let Err(fault) = page::tools() {
         eprintln!("xtask: {fault}; the live page is not tested in a browser");
     }
     let path = python.map(|path| path.to_string_lossy().into_owned()).ok();
     let environment: Vec<_> = path.iter().map(|path| ("KERRSCOPE_TEST_PYTHON", path.as_str())).collect();
     cargo(&["test", "--workspace", "--locked"], &environment)
-}
-
-/// What drives the live page in a browser, and checks its types; fetched once, and again when that changes.
-fn page_tools() -> Result<(), String> {
-    let web = root().join("web");
-    let lock =
-        std::fs::read(web.join("package-lock.json")).map_err(|e| format!("web/package-lock.json: {e}"))?;
-    let stamp = web.join("node_modules/fetched.json");
-    if std::fs::read(&stamp).is_ok_and(|fetched| fetched == lock) {
-        return Ok(());
-    }
-    run(Path::new("npm"), &["ci", "--prefix", "web", "--no-audit", "--no-fund"], &[])?;
-    std::fs::write(&stamp, lock).map_err(|e| format!("{}: {e}", stamp.display()))
 }
 
 fn check() -> Result<(), String> {

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use crate::coordinates::Coordinates;
-use crate::fit::{FitError, Image, Models, Options};
+use crate::fit::{FitError, Image, Interim, Models, Options};
 use crate::likelihood::{Noise, Posterior, Unknown};
 use crate::mode::{Mode, climb};
 use crate::model::{Freedom, Parameter, Source};
@@ -90,17 +90,24 @@ pub fn modes(
         modes.sort_by(|a, b| b.evaluation.log.total_cmp(&a.evaluation.log));
         modes
     };
+    let values = |mode: &Mode| -> Vec<f64> {
+        let values = &mode.evaluation.values[..parameters.len()];
+        values.iter().zip(parameters).map(|(v, p)| shrink(*v, p, -1)).collect()
+    };
+    let tell = |best: Option<Vec<f64>>| {
+        if let (Some(interim), Some(values)) = (options.interim, best)
+            && let Ok(best) = posterior.model.predict(&values, false)
+        {
+            interim(Interim::Best(&best.values));
+        }
+    };
     // All for a little, then those that have come far.
     let first = ascend(&places, FIRST);
+    tell(first.first().map(&values));
     let hopeful: Vec<Vec<f64>> = first.iter().take(HOPEFUL).map(|mode| mode.place.clone()).collect();
     let second = ascend(&hopeful, SECOND);
-    let rough_modes: Vec<Vec<f64>> = second
-        .iter()
-        .map(|mode| {
-            let values = &mode.evaluation.values[..parameters.len()];
-            values.iter().zip(parameters).map(|(v, p)| shrink(*v, p, -1)).collect()
-        })
-        .collect();
+    tell(second.first().map(&values));
+    let rough_modes: Vec<Vec<f64>> = second.iter().map(&values).collect();
     if (options.cancelled)() {
         return Err(FitError::Cancelled);
     }
