@@ -183,8 +183,8 @@ pub struct Painter {
 /// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
 const FAR_X: f64 = 0.02;
 
-/// Steps from above, as a share of the others.
-const CLOSEST: f64 = 0.3;
+/// Inclinations, degrees, and the steps between rows there as a share of those from the side.
+const CLOSER: [(f64, f64); 3] = [(7.0, 0.3), (22.0, 0.5), (40.0, 1.0)];
 
 /// Steps between which the rows of a disk are spread.
 const GRID: usize = 400;
@@ -287,12 +287,19 @@ impl Painter {
         Err(Unseen)
     }
 
-    /// The steps between rows, in those of the fineness. Of a disk seen from above, spin, scale and distance change almost nothing but
-    /// the brightness along the radius, and what is straight between rows is mistaken for them: at 0°, a = 0.6, for 8e-3 of the spin
-    /// with whole steps; from 20° on for less than 5e-4.
+    /// The steps between rows, in those of the fineness. From above, spin, scale and distance change almost nothing but the brightness
+    /// along the radius, and what is straight between rows is mistaken for them: with whole steps for 8e-3 of the spin at 0°
+    /// (a = 0.6), for 3e-3 at 20° (a = 0.7), for less than 5e-4 from 25° on.
     fn closer(&self, inclination: f64) -> f64 {
-        let whole = if self.fineness.tail >= COARSE { 1.0 } else { (inclination.to_degrees() - 7.0) / 13.0 };
-        CLOSEST + (1.0 - CLOSEST) * whole.clamp(0.0, 1.0)
+        if self.fineness.tail >= COARSE {
+            return 1.0;
+        }
+        let degrees = inclination.to_degrees();
+        let piece = CLOSER.windows(2).find(|ends| degrees < ends[1].0);
+        piece.map_or(1.0, |ends| {
+            let [(from, low), (to, high)] = [ends[0], ends[1]];
+            low + (high - low) * (degrees - from).max(0.0) / (to - from)
+        })
     }
 
     /// t of the rows of the direct image: close where the flux bends.
