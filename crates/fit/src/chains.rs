@@ -103,6 +103,8 @@ pub struct Field<'a, S> {
     pub modes: &'a [Mode],
     /// Seed of all random numbers.
     pub seed: u64,
+    /// Whether trajectories may be tried, which take long: not where the model describes no such picture.
+    pub patient: bool,
 }
 
 impl<S: Source> Field<'_, S> {
@@ -215,7 +217,7 @@ impl<S: Source> Field<'_, S> {
                 chains.best = Some((share, metric.clone()));
             }
             let most = chains.best.as_ref().map_or(0.0, |(most, _)| *most);
-            chains.trajectories = round + 1 == TRIED.len() && most < LEAPING;
+            chains.trajectories = self.patient && round + 1 == TRIED.len() && most < LEAPING;
             if chains.trajectories
                 && most < STUCK
                 && let Some(mode) = self.modes.first()

@@ -12,7 +12,7 @@ use crate::observed::Observed;
 use crate::search::modes;
 use crate::summary::Estimate;
 use crate::valley::follow;
-use crate::verdict;
+use crate::verdict::{self, Seen};
 
 /// A picture to fit.
 #[derive(Clone, Debug)]
@@ -168,6 +168,9 @@ pub trait Models: Sync {
 /// Noise above this share of the brightest pixel lets a coarser model do.
 const NOISY: f64 = 0.01;
 
+/// Rounds of draws of a model that does not describe the picture: more tell nothing.
+const POOR_ROUNDS: u64 = 4;
+
 /// Fits a model to a picture.
 ///
 /// # Errors
@@ -222,12 +225,19 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         mode.shear = shear;
         evaluations += more;
     }
-    let field = Field { posterior: &posterior, modes: &modes, seed: options.seed };
+    let names = names(&model, &coordinates, assumed.unknown.is_some());
+    let top = &modes[0].evaluation;
+    let best =
+        model.predict(&top.values[..model.parameters().len()], false).map_err(|_| FitError::NoStart)?;
+    let degrees = image.values.len().saturating_sub(posterior.count());
+    let seen = Seen { chi2: top.chi2, degrees, free: names.len(), known_noise: assumed.unknown.is_none() };
+    let poor = seen.compare(image, &best.values, models.level(image)).1.is_some();
+    let field = Field { posterior: &posterior, modes: &modes, seed: options.seed, patient: !poor };
     let mut chains = field.begin().ok_or(FitError::NoStart)?;
     let mut all: Vec<Draws> = vec![Draws::default(); CHAINS];
-    let names = names(&model, &coordinates, assumed.unknown.is_some());
     let mut estimates;
     let mut kept_rounds = 0;
+    let most = if poor { options.rounds.min(POOR_ROUNDS) } else { options.rounds };
     loop {
         let draws = round(&field, &mut chains, options)?;
         let [tried, made] = [0, 1].map(|k| draws.iter().map(|d| d.leaps[k]).sum::<usize>());
@@ -250,26 +260,23 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
         estimates = summarise(&model, &posterior, &modes[0], &all, image.pixel);
         tell(Interim::Estimates(&estimates));
         let done = estimates.iter().all(|estimate| estimate.converged(options.aim));
-        if done || kept_rounds + 1 >= options.rounds {
+        if done || kept_rounds + 1 >= most {
             break;
         }
     }
     let values: Vec<Vec<Vec<f64>>> =
         all.iter().map(|draws| draws.places.iter().map(|q| posterior.values(q)).collect()).collect();
-    let best = model
-        .predict(&modes[0].evaluation.values[..model.parameters().len()], false)
-        .map_err(|_| FitError::NoStart)?;
     let mut fit = Fit {
         converged: estimates.iter().all(|estimate| estimate.converged(options.aim)),
         estimates,
         warnings: Vec::new(),
         good: true,
-        chi2: modes[0].evaluation.chi2,
-        degrees: image.values.len().saturating_sub(posterior.count()),
+        chi2: top.chi2,
+        degrees,
         explained: 0.0,
         evidence: modes[0].evidence(),
         evaluations,
-        errors: errors(assumed, &modes[0].evaluation.values),
+        errors: errors(assumed, &top.values),
         best,
         draws: values
             .iter()

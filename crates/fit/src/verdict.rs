@@ -27,39 +27,16 @@ pub fn judge(
     (pixel_noise, aim): (f64, (f64, f64)),
 ) {
     let mut warnings = Vec::new();
-    let residuals: Vec<f64> = image.values.iter().zip(&fit.best.values).map(|(d, m)| d - m).collect();
-    let n = residuals.len() as f64;
-    let mean = image.values.iter().sum::<f64>() / n;
-    let variance = image.values.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n;
-    let left = residuals.iter().map(|r| r * r).sum::<f64>() / n;
-    fit.explained = 1.0 - left / variance;
-    let beyond = (left - pixel_noise * pixel_noise).max(0.0);
-    let alike = neighbours(&residuals, image.size);
-    let excess =
-        left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
-    let known = !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise");
-    let heavy = known && fit.chi2 > fit.degrees as f64 + 6.0 * (2.0 * fit.degrees as f64).sqrt();
-    let [found, least] = seen(n, variance, left, fit.free.len());
-    if beyond > UNEXPLAINED * variance || excess || heavy {
-        fit.good = false;
-        warnings.push(format!(
-            "poor fit: the model leaves {:.1} % of the picture's variance, {:.1} % of it beyond the noise, and residuals of neighbouring \
-             pixels go together (correlation {alike:.2}); χ² is {:.0} for {} degrees of freedom. Its numbers describe no such \
-             picture: do not use them",
-            100.0 * left / variance,
-            100.0 * beyond / variance,
-            fit.chi2,
-            fit.degrees,
-        ));
-    } else if !(found > least) {
-        fit.good = false;
-        warnings.push(format!(
-            "poor fit: the model explains {:.1} % of the picture's variance, no more than its {} free parameters may find in noise \
-             (n ln(V/v) is {found:.0}, and has to be above {least:.0}). Nothing like the model is seen: do not use its numbers",
-            100.0 * fit.explained,
-            fit.free.len(),
-        ));
-    }
+    let seen = Seen {
+        chi2: fit.chi2,
+        degrees: fit.degrees,
+        free: fit.free.len(),
+        known_noise: known_noise(fit, freedoms),
+    };
+    let (explained, fault) = seen.compare(image, &fit.best.values, pixel_noise);
+    fit.explained = explained;
+    fit.good = fault.is_none();
+    warnings.extend(fault);
     if !fit.converged {
         let worst = fit
             .estimates
@@ -132,6 +109,62 @@ pub fn judge(
         ));
     }
     fit.warnings = warnings;
+}
+
+fn known_noise(fit: &Fit, freedoms: &[Freedom]) -> bool {
+    !freedoms.is_empty() && fit.estimates.iter().all(|e| e.name != "noise")
+}
+
+/// What a picture is compared with a model by, besides its pixels.
+pub struct Seen {
+    /// Σ (d − m)²/σ².
+    pub chi2: f64,
+    /// Pixels less free parameters.
+    pub degrees: usize,
+    /// Free parameters.
+    pub free: usize,
+    /// Whether σ is known, and χ² thus says something.
+    pub known_noise: bool,
+}
+
+impl Seen {
+    /// The share of a picture's variance that a model explains, and why it does not describe the picture, if it does not.
+    pub fn compare(&self, image: &Image, model: &[f64], pixel_noise: f64) -> (f64, Option<String>) {
+        let residuals: Vec<f64> = image.values.iter().zip(model).map(|(d, m)| d - m).collect();
+        let n = residuals.len() as f64;
+        let mean = image.values.iter().sum::<f64>() / n;
+        let variance = image.values.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / n;
+        let left = residuals.iter().map(|r| r * r).sum::<f64>() / n;
+        let explained = 1.0 - left / variance;
+        let beyond = (left - pixel_noise * pixel_noise).max(0.0);
+        let alike = neighbours(&residuals, image.size);
+        let excess =
+            left.sqrt() > LARGE.0 * pixel_noise && left.sqrt() > LARGE.1 * peak(&image.values) && alike > 0.3;
+        let degrees = self.degrees as f64;
+        let heavy = self.known_noise && self.chi2 > degrees + 6.0 * (2.0 * degrees).sqrt();
+        let [found, least] = seen(n, variance, left, self.free);
+        let fault = if beyond > UNEXPLAINED * variance || excess || heavy {
+            Some(format!(
+                "poor fit: the model leaves {:.1} % of the picture's variance, {:.1} % of it beyond the noise, and residuals of \
+                 neighbouring pixels go together (correlation {alike:.2}); χ² is {:.0} for {} degrees of freedom. Its numbers describe \
+                 no such picture: do not use them",
+                100.0 * left / variance,
+                100.0 * beyond / variance,
+                self.chi2,
+                self.degrees,
+            ))
+        } else if !(found > least) {
+            Some(format!(
+                "poor fit: the model explains {:.1} % of the picture's variance, no more than its {} free parameters may find in noise \
+                 (n ln(V/v) is {found:.0}, and has to be above {least:.0}). Nothing like the model is seen: do not use its numbers",
+                100.0 * explained,
+                self.free,
+            ))
+        } else {
+            None
+        };
+        (explained, fault)
+    }
 }
 
 /// How much of what is there to see n pixels show, n ln(V/v), and how much it has to be.
