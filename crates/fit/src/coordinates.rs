@@ -1,7 +1,7 @@
 //! Coordinates in which parameters are looked for: without bounds, and smooth where parameters are not.
 //!
 //! A number between two bounds goes through the logistic function, a positive one through its logarithm, another one is divided by its
-//! size. Inclination i and position angle χ are those of an axis in space: v = 2 tan(i/2) (cos χ, sin χ), the stereographic projection
+//! size. A blur counts by its square: at 0, where it is bounded, its coordinate goes on to the mirror image. Inclination i and position angle χ are those of an axis in space: v = 2 tan(i/2) (cos χ, sin χ), the stereographic projection
 //! from the direction away from the observer, so that a disk seen face-on is a place like any other.
 
 use std::f64::consts::{PI, TAU};
@@ -9,6 +9,7 @@ use std::f64::consts::{PI, TAU};
 use serde::{Deserialize, Serialize};
 
 use crate::model::{Freedom, Parameter};
+use crate::place::{Place, turned};
 use crate::prior::Prior;
 
 /// A coordinate, or two.
@@ -16,6 +17,8 @@ use crate::prior::Prior;
 enum Kind {
     /// Between bounds.
     Between(f64, f64),
+    /// From 0 to a bound, the size of a number between both signs of it.
+    Even(f64),
     /// Between positive bounds, in the logarithm.
     BetweenLogs(f64, f64),
     /// Above a bound.
@@ -54,25 +57,6 @@ pub struct Reciprocal {
 pub struct Coordinates {
     start: Vec<f64>,
     sought: Vec<Sought>,
-}
-
-/// ∂parameter/∂coordinate, for each coordinate the parameters that it changes.
-type Slopes = Vec<Vec<(usize, f64)>>;
-
-/// Parameters as functions of coordinates.
-#[derive(Clone, Debug)]
-pub struct Place {
-    /// All parameters, fixed ones too.
-    pub values: Vec<f64>,
-    /// For each coordinate, the parameters that it changes and by how much.
-    pub slopes: Slopes,
-    /// The logarithm of the prior's density over the coordinates, but for a constant; with its gradient, and numbers near its
-    /// negative curvature along each.
-    pub prior: f64,
-    /// Its gradient.
-    pub gradient: Vec<f64>,
-    /// About its negative curvature along each coordinate, at least a little above 0.
-    pub curvature: Vec<f64>,
 }
 
 impl Reciprocal {
@@ -123,6 +107,7 @@ impl Coordinates {
                 "position_angle" if axis => continue,
                 "position_angle" => Kind::Turn,
                 _ if matches!(prior, Prior::LogUniform(..)) => Kind::BetweenLogs(low, high),
+                "blur" if low == 0.0 && high.is_finite() => Kind::Even(high),
                 _ if low.is_finite() && high.is_finite() => Kind::Between(low, high),
                 _ if low.is_finite() => Kind::Above(low),
                 _ => Kind::Anywhere(match prior {
@@ -175,6 +160,10 @@ impl Coordinates {
                     let share = ((value - low) / (high - low)).clamp(1e-6, 1.0 - 1e-6);
                     coordinates.push((share / (1.0 - share)).ln());
                 }
+                Kind::Even(high) => {
+                    let share = (0.5 * (1.0 + value / high)).clamp(0.5, 1.0 - 1e-6);
+                    coordinates.push((share / (1.0 - share)).ln());
+                }
                 Kind::BetweenLogs(low, high) => {
                     let share = ((value / low).ln() / (high / low).ln()).clamp(1e-6, 1.0 - 1e-6);
                     coordinates.push((share / (1.0 - share)).ln());
@@ -203,6 +192,19 @@ impl Coordinates {
         }
     }
 
+    /// A place with what has two signs on the side of another's.
+    pub fn beside(&self, place: &[f64], other: &[f64]) -> Vec<f64> {
+        let mut place = place.to_vec();
+        let mut at = 0;
+        for sought in &self.sought {
+            if matches!(sought.kind, Kind::Even(_)) && place[at] * other[at] < 0.0 {
+                place[at] = -place[at];
+            }
+            at += if sought.kind == Kind::Axis { 2 } else { 1 };
+        }
+        place
+    }
+
     /// Parameters at coordinates.
     pub fn at(&self, coordinates: &[f64]) -> Place {
         let mut place = Place {
@@ -224,6 +226,14 @@ impl Coordinates {
                     let both = (share * (1.0 - share)).max(1e-300);
                     let jacobian = [both.ln(), 1.0 - 2.0 * share, 2.0 * both];
                     place.one(k, value, slope, sought.prior, jacobian);
+                }
+                Kind::Even(high) => {
+                    let share = (1.0 + (-take()).exp()).recip();
+                    let signed = high * (2.0 * share - 1.0);
+                    let both = (share * (1.0 - share)).max(1e-300);
+                    let slope = 2.0 * high * both * signed.signum();
+                    let jacobian = [both.ln(), 1.0 - 2.0 * share, 2.0 * both];
+                    place.one(k, signed.abs(), slope, sought.prior, jacobian);
                 }
                 Kind::BetweenLogs(low, high) => {
                     let q = take();
@@ -260,73 +270,6 @@ impl Coordinates {
     }
 }
 
-/// ln of an angle's prior, its derivative and negative curvature per degree: a Gaussian goes around, all else is alike.
-fn turned(prior: &Prior, value: f64) -> [f64; 3] {
-    match prior {
-        Prior::Normal(mean, _) => prior.log(mean + (value - mean + 180.0).rem_euclid(360.0) - 180.0),
-        _ => [0.0; 3],
-    }
-}
-
-impl Place {
-    fn one(&mut self, k: usize, value: f64, slope: f64, prior: Prior, jacobian: [f64; 3]) {
-        self.values[k] = value;
-        let [log, rate, bend] = prior.log(value);
-        self.slopes.push(vec![(k, slope)]);
-        self.prior += log + jacobian[0];
-        self.gradient.push(rate * slope + jacobian[1]);
-        self.curvature.push((bend * slope * slope + jacobian[2]).max(1e-6));
-    }
-
-    /// With ρ = |v|: i = 2 atan(ρ/2), sin i di dχ = d²v/(1 + ρ²/4)², so that what is not isotropic of the prior remains.
-    fn axis(&mut self, k: usize, [x, y]: [f64; 2], [prior, other]: [Prior; 2]) {
-        let square = x * x + y * y;
-        let reach = square.sqrt();
-        let inclination = 2.0 * (0.5 * reach).atan();
-        self.values[k] = inclination.to_degrees();
-        self.values[k + 1] = y.atan2(x).to_degrees().rem_euclid(360.0);
-        let per = (1.0 + 0.25 * square).recip();
-        let [cos, sin] = if reach > 0.0 { [x / reach, y / reach] } else { [1.0, 0.0] };
-        let (along, around) = (per.to_degrees(), reach.max(1e-9).recip().to_degrees());
-        self.slopes.push(vec![(k, along * cos), (k + 1, -around * sin)]);
-        self.slopes.push(vec![(k, along * sin), (k + 1, around * cos)]);
-        let (mut log, mut rate) = (2.0 * per.ln(), -per * reach);
-        let [low, high] = prior.range([0.0, 180.0]);
-        // Outside of its range it falls steeply instead of ending.
-        let beyond = (low - self.values[k]).max(self.values[k] - high).max(0.0);
-        let side = if self.values[k] < low { 1.0 } else { -1.0 };
-        log -= 50.0 * beyond * beyond;
-        rate += 100.0 * beyond * side * along;
-        if !matches!(prior, Prior::Isotropic(..)) {
-            let [own, slope, _] = prior.log(self.values[k]);
-            // Per solid angle: divided by sin i.
-            let (sin_i, cos_i) = inclination.sin_cos();
-            let sin_i = sin_i.max(1e-9);
-            log += own - sin_i.ln();
-            rate += slope * along - cos_i / sin_i * per;
-        }
-        let [own, slope, bend] = turned(&other, self.values[k + 1]);
-        log += own;
-        let turn = slope * around;
-        self.prior += log;
-        self.gradient.extend([rate * cos - turn * sin, rate * sin + turn * cos]);
-        let stiff = bend * around * around;
-        self.curvature.extend([per + stiff * sin * sin, per + stiff * cos * cos]);
-    }
-
-    /// Derivatives with respect to coordinates from those with respect to parameters.
-    pub fn chain(&self, derivatives: &[Vec<f64>]) -> Vec<Vec<f64>> {
-        let column = |slopes: &Vec<(usize, f64)>| {
-            let mut sum = vec![0.0; derivatives.first().map_or(0, Vec::len)];
-            for (parameter, slope) in slopes {
-                sum.iter_mut().zip(&derivatives[*parameter]).for_each(|(s, d)| *s += slope * d);
-            }
-            sum
-        };
-        self.slopes.iter().map(column).collect()
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -349,6 +292,7 @@ mod tests {
             parameter("position_angle", [0.0, 360.0]),
             parameter("scale", [0.0, f64::INFINITY]),
             parameter("flux", everywhere),
+            parameter("blur", [0.0, 8.0]),
         ];
         for inclination in [Prior::Isotropic(0.0, 180.0), Prior::Normal(50.0, 10.0)] {
             let freedoms = [
@@ -357,10 +301,17 @@ mod tests {
                 Freedom::Free(Prior::Normal(230.0, 15.0)),
                 Freedom::Free(Prior::LogUniform(0.2, 0.9)),
                 Freedom::Free(Prior::Uniform(f64::NEG_INFINITY, f64::INFINITY)),
+                Freedom::Free(Prior::Uniform(0.0, 3.0)),
             ];
-            let coordinates = Coordinates::new(&parameters, &freedoms, &[1.0, 1.0, 1.0, 1.0, 40.0]);
-            let values = [0.4, 70.0, 250.0, 0.3, 100.0];
+            let coordinates = Coordinates::new(&parameters, &freedoms, &[1.0, 1.0, 1.0, 1.0, 40.0, 1.0]);
+            let values = [0.4, 70.0, 250.0, 0.3, 100.0, 0.7];
             let q = coordinates.of(&values);
+            // The other side of a blur of 0 is its mirror image.
+            let mut mirrored = q.clone();
+            mirrored[5] = -q[5];
+            let [there, here] = [&mirrored, &q].map(|q| coordinates.at(q));
+            assert!((there.values[5] - 0.7).abs() < 1e-12 && (there.prior - here.prior).abs() < 1e-12);
+            assert_eq!(coordinates.beside(&mirrored, &q), q);
             // Nothing lies beyond a prior's ends, however far one goes.
             for far in [-30.0, 30.0] {
                 let mut q = q.clone();

@@ -15,6 +15,7 @@ pub mod noise;
 pub mod nuts;
 mod observed;
 pub mod output;
+mod place;
 mod prior;
 pub mod question;
 mod reduce;
@@ -30,7 +31,8 @@ mod valley;
 mod verdict;
 
 pub use blur::{FWHM, Kernel};
-pub use coordinates::{Coordinates, Place};
+pub use coordinates::Coordinates;
 pub use observed::{COMMON, Observed};
+pub use place::Place;
 pub use prior::Prior;
 pub use ring::Ring;

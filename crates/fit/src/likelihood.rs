@@ -6,9 +6,10 @@
 
 use nalgebra::DMatrix;
 
-use crate::coordinates::{Coordinates, Place};
+use crate::coordinates::Coordinates;
 use crate::model::Source;
 use crate::observed::Observed;
+use crate::place::Place;
 
 /// What is known of the errors of a picture's pixels.
 #[derive(Clone, Debug, PartialEq)]

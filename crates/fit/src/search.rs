@@ -147,7 +147,10 @@ pub fn modes(
         if let Some(best) = kept.first() {
             posterior.coordinates.near(&mut mode.place, &best.place);
         }
-        let same = |other: &Mode| other.standard(&mode.place).norm() < 1.5;
+        let same = |other: &Mode| {
+            let place = posterior.coordinates.beside(&mode.place, &other.place);
+            other.standard(&place).norm() < 1.5
+        };
         let top = kept.first().map_or(mode.evaluation.log, |best| best.evaluation.log);
         if mode.evaluation.log > top - FORGOTTEN && !kept.iter().any(same) {
             kept.push(mode);
