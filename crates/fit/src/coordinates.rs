@@ -1,8 +1,9 @@
 //! Coordinates in which parameters are looked for: without bounds, and smooth where parameters are not.
 //!
 //! A number between two bounds goes through the logistic function, a positive one through its logarithm, another one is divided by its
-//! size. A blur counts by its square: at 0, where it is bounded, its coordinate goes on to the mirror image. Inclination i and position angle χ are those of an axis in space: v = 2 tan(i/2) (cos χ, sin χ), the stereographic projection
-//! from the direction away from the observer, so that a disk seen face-on is a place like any other.
+//! size. A blur counts by its square: at 0, where it is bounded, its coordinate goes on to the mirror image. Inclination i and
+//! position angle χ are those of an axis in space: v = 2 tan(i/2) (cos χ, sin χ), the stereographic projection from the direction away
+//! from the observer, so that a disk seen face-on is a place like any other.
 
 use std::f64::consts::{PI, TAU};
 
