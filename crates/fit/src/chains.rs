@@ -3,17 +3,18 @@
 //! Chains begin around the modes, drawn with a wider spread. In posteriors of clear pictures, which are nearly Gaussians, they leap: to
 //! places drawn from Student's distributions around all modes (of eight degrees of freedom), accepted by Metropolis & Hastings, and by
 //! short random walks between; leaps change between modes as often as their weights ask for. Where too few leaps succeed, chains move
-//! by the No-U-Turn Sampler, with a leap after each trajectory. A leap costs one evaluation of the model, a trajectory some seven with
+//! by the No-U-Turn Sampler ([`crate::leap`] has the leaps), one leap after each trajectory. A leap costs one evaluation of the model, a trajectory some seven with
 //! gradients.
 //!
 //! A round of draws is a function of the round before and of the seed, whatever the number of threads.
 
 use rand::{RngExt, SeedableRng};
-use rand_distr::{ChiSquared, Distribution, StandardNormal};
+use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use crate::leap::weights;
 use crate::likelihood::{Ask, Posterior};
 use crate::metric::Metric;
 use crate::mode::Mode;
@@ -22,9 +23,6 @@ use crate::nuts::{Pace, State, step};
 
 /// Chains.
 pub const CHAINS: usize = 4;
-
-/// Degrees of freedom of proposals between modes.
-const FREEDOM: f64 = 8.0;
 
 /// Draws of the first rounds, which are not kept: three of leaps, between which the draws' own covariance shapes them; and where
 /// these fail, three of trajectories.
@@ -45,16 +43,16 @@ const WORSE: f64 = 0.05;
 /// Below this share of them, the draws' covariance is none to go on with.
 const STUCK: f64 = 0.1;
 
-/// Leaps for a draw.
-const LEAPS: usize = 2;
-
 /// Draws of a round of each chain.
 pub const ROUND: usize = 50;
 
 /// Where a chain is.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Chain {
-    state: State,
+    /// Coordinates.
+    pub(crate) place: Vec<f64>,
+    /// The same place in the metric, without a gradient where none was asked for.
+    pub(crate) state: State,
     pace: Pace,
 }
 
@@ -97,17 +95,23 @@ impl Chains {
 
 /// What chains are run over.
 pub struct Field<'a, S> {
-    /// The posterior.
-    pub posterior: &'a Posterior<'a, S>,
-    /// Its modes, the best first.
-    pub modes: &'a [Mode],
-    /// Seed of all random numbers.
-    pub seed: u64,
-    /// Whether trajectories may be tried, which take long: not where the model describes no such picture.
-    pub patient: bool,
+    pub(crate) posterior: &'a Posterior<'a, S>,
+    pub(crate) modes: &'a [Mode],
+    /// What leaps around each are shaped by, and how often they lead there.
+    pub(crate) around: Vec<(Metric, f64)>,
+    seed: u64,
+    patient: bool,
 }
 
-impl<S: Source> Field<'_, S> {
+impl<'a, S: Source> Field<'a, S> {
+    /// Of a posterior and its modes, the best first. All random numbers follow from the seed. Where one is not patient, trajectories
+    /// are not tried, which take long: where the model describes no such picture.
+    pub fn new(posterior: &'a Posterior<'a, S>, modes: &'a [Mode], seed: u64, patient: bool) -> Self {
+        let metrics = modes.iter().map(|mode| Metric::between_bounds(mode, posterior.coordinates));
+        let around = metrics.zip(weights(modes)).collect();
+        Self { posterior, modes, around, seed, patient }
+    }
+
     fn rng(&self, round: u64, chain: usize) -> Pcg64Mcg {
         Pcg64Mcg::seed_from_u64(kerrscope::random::mix(
             self.seed ^ kerrscope::random::mix(round * 64 + chain as u64),
@@ -116,56 +120,35 @@ impl<S: Source> Field<'_, S> {
 
     /// Chains at their beginnings; none if the model has no picture anywhere near.
     pub fn begin(&self) -> Option<Chains> {
-        let metric = Metric::around(self.modes.first()?);
+        let (metric, _) = self.around.first()?;
+        let smooth: Vec<Metric> = self.modes.iter().map(Metric::around).collect();
         let chains: Option<Vec<Chain>> = (0..CHAINS)
             .into_par_iter()
             .map(|number| {
                 let mut rng = self.rng(0, number);
                 for attempt in 0..40 {
                     let wide = if attempt < 20 { 1.3 } else { 0.3 };
-                    let mode = self.chosen(&mut rng);
-                    let z: Vec<f64> = mode
-                        .place
-                        .iter()
+                    let smooth = &smooth[self.chosen(&mut rng)];
+                    let z: Vec<f64> = (0..self.posterior.count())
                         .map(|_| wide * Distribution::<f64>::sample(&StandardNormal, &mut rng))
                         .collect();
-                    if let Some(state) = self.state(&metric, &mode.at(&z)) {
-                        return Some(Chain { state, pace: Pace::new(0.6) });
+                    if let Some(place) = smooth.outside(&z)
+                        && let Some(state) = self.state(metric, &place)
+                    {
+                        return Some(Chain { place, state, pace: Pace::new(0.6) });
                     }
                 }
                 None
             })
             .collect();
         Some(Chains {
-            metric,
+            metric: metric.clone(),
             members: chains?,
             trajectories: false,
             rounds: 0,
             gathered: Vec::new(),
             best: None,
         })
-    }
-
-    /// A mode, by its weight.
-    fn chosen(&self, rng: &mut Pcg64Mcg) -> &Mode {
-        let weights = self.weights();
-        let mut rest: f64 = rng.random();
-        for (mode, weight) in self.modes.iter().zip(&weights) {
-            rest -= weight;
-            if rest <= 0.0 {
-                return mode;
-            }
-        }
-        &self.modes[0]
-    }
-
-    fn weights(&self) -> Vec<f64> {
-        let logs: Vec<f64> = self.modes.iter().map(Mode::evidence).collect();
-        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        // None is so improbable that it is never tried.
-        let weights: Vec<f64> = logs.iter().map(|log| (log - top).exp().max(0.02)).collect();
-        let sum: f64 = weights.iter().sum();
-        weights.iter().map(|weight| weight / sum).collect()
     }
 
     fn state(&self, metric: &Metric, q: &[f64]) -> Option<State> {
@@ -200,8 +183,10 @@ impl<S: Source> Field<'_, S> {
             .collect();
         let places = || {
             let mut places: Vec<Vec<f64>> = draws.iter().flat_map(|d| d.places.iter().cloned()).collect();
+            let (coordinates, best) = (self.posterior.coordinates, &self.modes[0].place);
             for place in &mut places {
-                self.posterior.coordinates.near(place, &self.modes[0].place);
+                coordinates.near(place, best);
+                *place = coordinates.beside(place, best);
             }
             places
         };
@@ -218,12 +203,11 @@ impl<S: Source> Field<'_, S> {
             }
             let most = chains.best.as_ref().map_or(0.0, |(most, _)| *most);
             chains.trajectories = self.patient && round + 1 == TRIED.len() && most < LEAPING;
-            if chains.trajectories
-                && most < STUCK
-                && let Some(mode) = self.modes.first()
-            {
-                // Draws that hardly moved have no shape.
-                Self::change(&mut chains, Metric::around(mode));
+            if chains.trajectories {
+                // They need coordinates without an end. Draws that hardly moved have no shape.
+                let smooth = Metric::around(&self.modes[0]);
+                let next = if most < STUCK { smooth } else { smooth.shaped_by(&chains.gathered) };
+                Self::change(&mut chains, next);
             } else if round < SHAPED && (round + 1 < TRIED.len() || share < GOOD) {
                 // Chains began wide: the first draws make a first shape alone.
                 let shape = if round == 0 {
@@ -250,38 +234,11 @@ impl<S: Source> Field<'_, S> {
     /// Goes over to other coordinates.
     fn change(chains: &mut Chains, next: Metric) {
         for chain in &mut chains.members {
-            let q = chains.metric.outside(&chain.state.z);
-            chain.state =
-                State { z: next.inside(&q).as_slice().to_vec(), log: chain.state.log, gradient: Vec::new() };
+            let z = next.inside(&chain.place).as_slice().to_vec();
+            chain.state = State { z, log: chain.state.log, gradient: Vec::new() };
             chain.pace = Pace::new(0.7);
         }
         chains.metric = next;
-    }
-
-    /// Draws by leaps and random walks.
-    fn leaps(
-        &self,
-        metric: &Metric,
-        chain: &mut Chain,
-        count: usize,
-        rng: &mut Pcg64Mcg,
-        cancelled: &(dyn Fn() -> bool + Sync),
-    ) -> Draws {
-        let mut draws = Draws::default();
-        for _ in 0..count {
-            if cancelled() {
-                break;
-            }
-            for _ in 0..LEAPS {
-                draws.leaps[0] += 1;
-                draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
-            }
-            self.wander(metric, chain, rng);
-            draws.evaluations += LEAPS + 1;
-            draws.places.push(metric.outside(&chain.state.z));
-            draws.logs.push(chain.state.log);
-        }
-        draws
     }
 
     /// Draws by trajectories, a leap after each.
@@ -295,7 +252,7 @@ impl<S: Source> Field<'_, S> {
     ) -> Draws {
         let mut draws = Draws::default();
         let mut target = |y: &[f64]| {
-            let q = metric.outside(y);
+            let q = metric.outside(y)?;
             let found = self.posterior.at(&q, Ask::Gradient)?;
             Some((found.log, metric.pull(&q, &found.gradient)))
         };
@@ -304,7 +261,7 @@ impl<S: Source> Field<'_, S> {
                 break;
             }
             if chain.state.gradient.is_empty()
-                && let Some(state) = self.state(metric, &metric.outside(&chain.state.z))
+                && let Some(state) = self.state(metric, &chain.place)
             {
                 chain.state = state;
                 draws.evaluations += 1;
@@ -315,7 +272,9 @@ impl<S: Source> Field<'_, S> {
                 // Steps of many sizes: trajectories of one length may be periodic.
                 let size = size * (0.9 + 0.2 * rng.random::<f64>());
                 let (state, step) = step(&mut target, &chain.state, size, rng);
-                chain.state = state;
+                if let Some(place) = metric.outside(&state.z) {
+                    (chain.place, chain.state) = (place, state);
+                }
                 if warm.is_some() {
                     chain.pace.learn(step.acceptance);
                 }
@@ -325,75 +284,9 @@ impl<S: Source> Field<'_, S> {
             draws.evaluations += 1;
             draws.leaps[0] += 1;
             draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
-            draws.places.push(metric.outside(&chain.state.z));
+            draws.places.push(chain.place.clone());
             draws.logs.push(chain.state.log);
         }
         draws
-    }
-
-    /// A step of a random walk, of the size that suits a Gaussian (Roberts, Gelman & Gilks 1997), or a fifth of it.
-    fn wander(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) {
-        let n = chain.state.z.len() as f64;
-        let size = 2.38 / n.sqrt() * if rng.random::<bool>() { 1.0 } else { 0.2 };
-        let z: Vec<f64> = chain
-            .state
-            .z
-            .iter()
-            .map(|z| z + size * Distribution::<f64>::sample(&StandardNormal, rng))
-            .collect();
-        let chance: f64 = rng.random();
-        if let Some(found) = self.posterior.at(&metric.outside(&z), Ask::Value)
-            && chance.ln() < found.log - chain.state.log
-        {
-            chain.state = State { z, log: found.log, gradient: Vec::new() };
-        }
-    }
-
-    /// Tries to change to a place that is drawn from around all modes. A new place has no gradient yet.
-    fn leap(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) -> bool {
-        let mode = self.chosen(rng);
-        let stretch = ChiSquared::new(FREEDOM)
-            .map_or(1.0, |chi| (FREEDOM / Distribution::<f64>::sample(&chi, rng).max(1e-3)).sqrt());
-        let z: Vec<f64> =
-            mode.place.iter().map(|_| stretch * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
-        // Places that differ by whole turns are one: those within half a turn of the best mode stand for all.
-        let (coordinates, center) = (self.posterior.coordinates, &self.modes[0].place);
-        let mut from = metric.outside(&chain.state.z);
-        coordinates.near(&mut from, center);
-        // The only mode has the shape that draws have shown.
-        let to = if self.modes.len() == 1 { metric.outside(&z) } else { mode.at(&z) };
-        let chance: f64 = rng.random();
-        let mut within = to.clone();
-        coordinates.near(&mut within, center);
-        if within != to {
-            return false;
-        }
-        let Some(found) = self.posterior.at(&to, Ask::Value) else { return false };
-        let gain = found.log - chain.state.log + self.density(metric, &from) - self.density(metric, &to);
-        let accepted = chance.ln() < gain;
-        if accepted {
-            let z = metric.inside(&to).as_slice().to_vec();
-            chain.state = State { z, log: found.log, gradient: Vec::new() };
-        }
-        accepted
-    }
-
-    /// The logarithm of the density of proposals, but for a constant: Σ w_k t(Lᵀ(q − q_k)) det L.
-    fn density(&self, metric: &Metric, q: &[f64]) -> f64 {
-        let student = |square: f64| -0.5 * (FREEDOM + q.len() as f64) * (1.0 + square / FREEDOM).ln();
-        if self.modes.len() == 1 {
-            return student(metric.inside(q).norm_squared());
-        }
-        let logs: Vec<f64> = self
-            .modes
-            .iter()
-            .zip(self.weights())
-            .map(|(mode, weight)| {
-                let half: f64 = mode.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
-                weight.ln() + half + student(mode.standard(q).norm_squared())
-            })
-            .collect();
-        let top = logs.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        top + logs.iter().map(|log| (log - top).exp()).sum::<f64>().ln()
     }
 }

@@ -141,14 +141,34 @@ impl Coordinates {
 
     /// The observer's distance, if it is looked for between two others.
     pub fn distance(&self) -> Option<Reciprocal> {
-        let mut index = 0;
-        for sought in &self.sought {
-            if let (true, Kind::BetweenLogs(low, high)) = (sought.distance, sought.kind) {
-                return Some(Reciprocal { index, low, high });
-            }
-            index += if sought.kind == Kind::Axis { 2 } else { 1 };
-        }
-        None
+        self.numbered().find_map(|(index, sought)| match sought.kind {
+            Kind::BetweenLogs(low, high) if sought.distance => Some(Reciprocal { index, low, high }),
+            _ => None,
+        })
+    }
+
+    /// Which go with the logistic function of a share of the way between two bounds, but for the observer's distance.
+    pub fn bounded(&self) -> Vec<usize> {
+        let bounded = |sought: &Sought| match sought.kind {
+            Kind::Between(..) | Kind::Even(_) => true,
+            Kind::BetweenLogs(..) => !sought.distance,
+            _ => false,
+        };
+        self.numbered().filter(|(_, sought)| bounded(sought)).map(|(k, _)| k).collect()
+    }
+
+    /// The coordinate that goes on to its mirror image at 0, if one does.
+    pub fn even(&self) -> Option<usize> {
+        self.numbered().find(|(_, sought)| matches!(sought.kind, Kind::Even(_))).map(|(k, _)| k)
+    }
+
+    /// Coordinates of what is looked for, the first of both of an axis.
+    fn numbered(&self) -> impl Iterator<Item = (usize, &Sought)> {
+        self.sought.iter().scan(0, |next, sought| {
+            let k = *next;
+            *next += if sought.kind == Kind::Axis { 2 } else { 1 };
+            Some((k, sought))
+        })
     }
 
     /// Coordinates of parameters, those at or beyond their bounds a little within.
@@ -184,24 +204,16 @@ impl Coordinates {
 
     /// Takes whole turns off a place, so that its angles lie within half a turn of another's.
     pub fn near(&self, place: &mut [f64], other: &[f64]) {
-        let mut at = 0;
-        for sought in &self.sought {
-            if sought.kind == Kind::Turn {
-                place[at] -= TAU * ((place[at] - other[at]) / TAU).round();
-            }
-            at += if sought.kind == Kind::Axis { 2 } else { 1 };
+        for (k, _) in self.numbered().filter(|(_, sought)| sought.kind == Kind::Turn) {
+            place[k] -= TAU * ((place[k] - other[k]) / TAU).round();
         }
     }
 
     /// A place with what has two signs on the side of another's.
     pub fn beside(&self, place: &[f64], other: &[f64]) -> Vec<f64> {
         let mut place = place.to_vec();
-        let mut at = 0;
-        for sought in &self.sought {
-            if matches!(sought.kind, Kind::Even(_)) && place[at] * other[at] < 0.0 {
-                place[at] = -place[at];
-            }
-            at += if sought.kind == Kind::Axis { 2 } else { 1 };
+        if let Some(k) = self.even().filter(|k| place[*k] * other[*k] < 0.0) {
+            place[k] = -place[k];
         }
         place
     }

@@ -232,7 +232,7 @@ pub fn fit(image: &Image, models: &dyn Models, options: &Options<'_>) -> Result<
     let degrees = image.values.len().saturating_sub(posterior.count());
     let seen = Seen { chi2: top.chi2, degrees, free: names.len(), known_noise: assumed.unknown.is_none() };
     let poor = seen.compare(image, &best.values, models.level(image)).1.is_some();
-    let field = Field { posterior: &posterior, modes: &modes, seed: options.seed, patient: !poor };
+    let field = Field::new(&posterior, &modes, options.seed, !poor);
     let mut chains = field.begin().ok_or(FitError::NoStart)?;
     let mut all: Vec<Draws> = vec![Draws::default(); CHAINS];
     let mut estimates;

@@ -1,11 +1,13 @@
 //! Black holes read off pictures: a picture as a function of parameters, and what is known of these once it is seen.
 
 mod blur;
+mod bounds;
 pub mod chains;
 mod coordinates;
 pub mod diagnostics;
 pub mod evidence;
 pub mod fit;
+mod leap;
 pub mod likelihood;
 mod metric;
 pub mod mode;

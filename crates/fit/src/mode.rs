@@ -33,28 +33,6 @@ impl Mode {
         let half: f64 = self.factor.l_dirty().diagonal().iter().map(|d| d.ln()).sum();
         self.evaluation.log + 0.5 * n * std::f64::consts::TAU.ln() - half
     }
-
-    /// Coordinates of a place given in standard deviations of that Gaussian: q + L⁻ᵀ z, sheared.
-    pub fn at(&self, z: &[f64]) -> Vec<f64> {
-        let mut step = DVector::from_column_slice(z);
-        self.factor.l_dirty().tr_solve_lower_triangular_mut(&mut step);
-        let mut q: Vec<f64> = self.place.iter().zip(step.iter()).map(|(q, s)| q + s).collect();
-        if let Some(shear) = &self.shear {
-            shear.bend(&mut q);
-        }
-        q
-    }
-
-    /// The place in standard deviations: Lᵀ (q − q₀), q straightened.
-    pub fn standard(&self, q: &[f64]) -> DVector<f64> {
-        let mut q = q.to_vec();
-        if let Some(shear) = &self.shear {
-            shear.straighten(&mut q);
-        }
-        let offset = DVector::from_iterator(q.len(), q.iter().zip(&self.place).map(|(a, b)| a - b));
-        let lower = self.factor.l_dirty().lower_triangle();
-        lower.tr_mul(&offset)
-    }
 }
 
 /// The factor of a matrix that is made positive where it is not.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use crate::coordinates::Coordinates;
 use crate::fit::{FitError, Image, Interim, Models, Options};
 use crate::likelihood::{Noise, Posterior, Unknown};
+use crate::metric::Metric;
 use crate::mode::{Mode, climb};
 use crate::model::{Freedom, Parameter, Source};
 use crate::noise;
@@ -149,7 +150,7 @@ pub fn modes(
         }
         let same = |other: &Mode| {
             let place = posterior.coordinates.beside(&mode.place, &other.place);
-            other.standard(&place).norm() < 1.5
+            Metric::around(other).inside(&place).norm() < 1.5
         };
         let top = kept.first().map_or(mode.evaluation.log, |best| best.evaluation.log);
         if mode.evaluation.log > top - FORGOTTEN && !kept.iter().any(same) {

@@ -14,6 +14,7 @@
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
+use crate::bounds::Bounds;
 use crate::coordinates::{Coordinates, Reciprocal};
 use crate::mode::factor;
 
@@ -67,6 +68,20 @@ impl Shear {
         line[self.distance.index] = [0.0; 2];
         let at = self.knots.partition_point(|knot| knot.u < u);
         self.knots.insert(at, Knot { u, line });
+    }
+
+    /// The same line in coordinates that are straight between bounds about the same place.
+    pub fn between(&self, bounds: &Bounds) -> Self {
+        let mut shear = self.clone();
+        for knot in &mut shear.knots {
+            let mut there: Vec<f64> = self.place.iter().zip(&knot.line).map(|(q, [p, _])| q + p).collect();
+            let slopes = bounds.slopes(&there);
+            bounds.straighten(&mut there);
+            for (k, [p, slope]) in knot.line.iter_mut().enumerate() {
+                (*p, *slope) = (there[k] - self.place[k], *slope / slopes[k]);
+            }
+        }
+        shear
     }
 
     /// Which coordinate is the distance's.
