@@ -25,8 +25,7 @@ const ARGUMENTS: [&str; 13] = [
 /// Kills a render 20 times, each at a random moment and each time from the start, and goes on with it;
 /// every file must have the bytes of the uninterrupted one.
 pub fn run(root: &Path) -> Result<(bool, String), String> {
-    super::super::cargo(&["build", "--release", "--locked"])?;
-    let program = root.join("target/release").join(format!("kerrscope{}", std::env::consts::EXE_SUFFIX));
+    let program = super::program(root)?;
     let folder = root.join("target/resume");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let [whole, file] = ["whole.exr", "killed.exr"].map(|name| folder.join(name));

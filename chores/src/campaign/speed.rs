@@ -19,14 +19,13 @@ const SCENE: &str = "scenes/thesis-4.8.toml";
 /// sample is traced. Nothing is required of the speed; interpolated quantities must be within the error asked
 /// for.
 pub fn run(root: &Path) -> Result<(bool, String), String> {
-    super::super::cargo(&["build", "--release", "--locked"])?;
-    let program = root.join("target/release").join(format!("kerrscope{}", std::env::consts::EXE_SUFFIX));
-    let mut body = format!("Machine: {}.\n\n", machine());
-    body += "## Rays\n\n`kerrscope bench`: 640,000 rays around a = 0.99, one thread, CPU time, the median of several passes. \
+    let program = super::program(root)?;
+    let mut body = "## Rays\n\n`kerrscope bench`: 640,000 rays around a = 0.99, one thread, CPU time, the median of several passes. \
              Errors are against the closed form with 48 nodes: sky angle in radians and relative radius of crossings, outside \
              1 % of the critical curve. The last column is the largest error of a radius anywhere, as a share of \
              max(10⁻⁸, 10⁻¹⁴ r/δ) at the relative distance δ from the critical curve; then the rays whose fate or number of \
-             crossings is another.\n\n";
+             crossings is another.\n\n"
+        .to_owned();
     bench(&program, root, &mut body)?;
     body += "\n## Whole commands\n\n";
     let _ = writeln!(
@@ -52,15 +51,6 @@ pub fn run(root: &Path) -> Result<(bool, String), String> {
         passed &= pictures(root, scene, &mut body)?;
     }
     Ok((passed, body))
-}
-
-/// Model of the processor and how many there are.
-fn machine() -> String {
-    let about = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model =
-        about.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": ")).map(|(_, m)| m);
-    let best = kerrscope::spacetime::Level::best().name();
-    format!("{} × {}, {best}", rayon::current_num_threads(), model.unwrap_or("unknown processor"))
 }
 
 fn json(program: &Path, root: &Path, arguments: &[&str]) -> Result<Value, String> {

@@ -169,7 +169,7 @@ pub trait Models: Sync {
 const NOISY: f64 = 0.01;
 
 /// Rounds of draws of a model that does not describe the picture: more tell nothing.
-const POOR_ROUNDS: u64 = 4;
+const POOR_ROUNDS: u64 = 2;
 
 /// Fits a model to a picture.
 ///

@@ -75,8 +75,7 @@ impl<S: Source> Field<'_, S> {
         let n = chain.state.z.len() as f64;
         let size = 2.38 / n.sqrt() * if rng.random::<bool>() { 1.0 } else { 0.2 };
         let z = chain.state.z.iter();
-        let z: Vec<f64> =
-            z.map(|z| z + size * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
+        let z: Vec<f64> = z.map(|z| z + size * Distribution::<f64>::sample(&StandardNormal, rng)).collect();
         let chance: f64 = rng.random();
         let Some(to) = metric.outside(&z) else { return };
         // The walk is even in z.

@@ -1,5 +1,10 @@
 """Pictures: as arrays, in files, and as other libraries read them."""
 
+import importlib.util
+import json
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -97,6 +102,36 @@ def test_astropy_reads_it(tmp_path, shining):
         assert file[0].header["BUNIT"] == "JY/PIXEL"
         assert np.isclose(file[0].header["CDELT2"] * 3.6e9, shining.about["pixel_uas"])
         assert np.array_equal(file["N0.G"].data[::-1].astype("f4"), shining.layers["g"][0], equal_nan=True)
+
+
+EHTIM = """
+import json, sys
+import numpy as np
+import ehtim
+image = ehtim.image.load_fits(sys.argv[1])
+values = image.imarr()
+print(json.dumps([image.total_flux(), image.psize, image.xdim, image.ydim, image.rf, image.source, image.mjd]))
+print(json.dumps([int(k) for k in np.unravel_index(values.argmax(), values.shape)]))
+np.save(sys.argv[2], values)
+"""
+
+
+def test_ehtim_reads_it(tmp_path, shining):
+    """A program of its own: it is under the GPL."""
+    if importlib.util.find_spec("ehtim") is None:
+        pytest.skip("ehtim is not installed")
+    shining.save(tmp_path / "image.fits")
+    command = [sys.executable, "-c", EHTIM, tmp_path / "image.fits", tmp_path / "values.npy"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    # It has more to say on the lines before.
+    about, brightest = (json.loads(line) for line in done.stdout.splitlines()[-2:])
+    flux, pixel, width, height, frequency, name, day = about
+    assert np.isclose(flux, shining.about["total_flux_jy"], rtol=1e-12)
+    assert np.isclose(np.degrees(pixel) * 3.6e9, shining.about["pixel_uas"], rtol=1e-12)
+    assert (height, width) == shining.radiance.shape
+    assert (frequency, name, day) == (230e9, "kerrscope", 51544)
+    assert np.allclose(np.load(tmp_path / "values.npy"), shining.radiance, rtol=1e-14, atol=0)
+    assert tuple(brightest) == np.unravel_index(shining.radiance.argmax(), shining.radiance.shape)
 
 
 def test_xarray_takes_and_reads_it(tmp_path, shining, small):
