@@ -220,6 +220,54 @@ mod tests {
         assert!(shear.valley(0.03).is_none());
     }
 
+    /// In coordinates that are straight between bounds the line leads through the same places, the same way.
+    #[test]
+    fn between_bounds_too() {
+        let parameter = |name, bounds| Parameter {
+            name,
+            unit: "",
+            meaning: "",
+            bounds,
+            pixels: 0,
+            usual: Freedom::Fixed(0.0),
+        };
+        let parameters = [parameter("spin", [-1.0, 1.0]), parameter("distance", [0.0, f64::INFINITY])];
+        let free = [Freedom::Free(Prior::Uniform(-1.0, 1.0)), Freedom::Free(Prior::LogUniform(40.0, 1e4))];
+        let coordinates = Coordinates::new(&parameters, &free, &[1.0, 1.0]);
+        // q = 2 + 300 u − 2e4 u², near the bound of 1.
+        let valley = |u: f64| [2.0 + 300.0 * u - 2e4 * u * u, 300.0 - 4e4 * u];
+        let about = |r: f64| {
+            let mut place = coordinates.of(&[0.0, r]);
+            let [q, rate] = valley(1.0 / r);
+            place[0] = q;
+            let rate = rate * coordinates.distance().unwrap().at(place[1])[1];
+            let curvature = [1e8, -1e8 * rate, -1e8 * rate, 1e8 * rate * rate + 1.0];
+            (Shear::about(&coordinates, &place, &DMatrix::from_row_slice(2, 2, &curvature)).unwrap(), place)
+        };
+        let (mut shear, place) = about(800.0);
+        for r in [150.0, 4000.0, 300.0] {
+            shear.lead_through(&about(r).0);
+        }
+        let bounds = Bounds::about(&coordinates, &place);
+        let between = shear.between(&bounds);
+        for r in [150.0, 300.0, 800.0, 4000.0] {
+            let at = |u: f64| {
+                let mut place = between.valley(u).unwrap();
+                assert!(bounds.bend(&mut place));
+                place[0]
+            };
+            let (u, [q, rate]) = (1.0 / r, valley(1.0 / r));
+            assert!((at(u) - q).abs() < 1e-12, "{r}: {} {q}", at(u));
+            let step = 1e-8;
+            let difference = (at(u + step) - at(u - step)) / (2.0 * step);
+            assert!((difference / rate - 1.0).abs() < 1e-4, "{r}: {difference} {rate}");
+        }
+        // Where it is made, both touch the identity.
+        let mut straight = place.clone();
+        between.straighten(&mut straight);
+        assert!(straight.iter().zip(&place).all(|(a, b)| (a - b).abs() < 1e-12));
+    }
+
     /// There and back; the gradient against differences; and where the others follow 1/r, the valley is straight.
     #[test]
     fn straight_in_one_over_r() {
