@@ -16,6 +16,8 @@ const GAP: f64 = 8.0;
 const MARGINS: [f64; 4] = [92.0, 72.0, 24.0, 84.0];
 /// What stands above a panel of the diagonal.
 const HEAD: f64 = 34.0;
+/// Characters of the usual size above a panel.
+const WORDS: f64 = 24.0;
 
 /// Shares of the posterior that lie in the shaded regions: those of a Gaussian in two dimensions within 1 σ and 2 σ, 1 − exp(−n²/2).
 const SHARES: [f64; 2] = [0.8647, 0.3935];
@@ -183,14 +185,16 @@ pub fn corner(fit: &Fit, title: &str) -> String {
 /// Name and interval above a panel.
 fn head(svg: &mut String, axis: &Axis, [x, y]: [f64; 2]) {
     let middle = x + 0.5 * PANEL;
+    let interval = axis.interval();
+    // Many digits are written smaller, so that they stay beside those of the next panel.
+    let size = (11.0 * WORDS / interval.chars().count() as f64).min(11.0);
     let _ = writeln!(
         svg,
         "<text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-weight=\"bold\">{}</text>\
-         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" class=\"interval\">{}</text>",
+         <text x=\"{middle}\" y=\"{}\" text-anchor=\"middle\" font-size=\"{size:.1}\" class=\"interval\">{interval}</text>",
         y - HEAD + 14.0,
         axis.label(),
         y - HEAD + 28.0,
-        axis.interval()
     );
 }
 
