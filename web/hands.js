@@ -93,7 +93,7 @@ export function hands(canvas, hold) {
       ArrowLeft: { around: -step }, ArrowRight: { around: step }, ArrowUp: { over: -step }, ArrowDown: { over: step },
       "+": { nearer: 1.05 }, "=": { nearer: 1.05 }, "-": { nearer: 1 / 1.05 }, q: { roll: step }, e: { roll: -step },
     };
-    const gesture = gestures[event.key];
+    const gesture = gestures[event.key.length === 1 ? event.key.toLowerCase() : event.key];
     if (!gesture) return;
     event.preventDefault();
     hold.move(gesture);

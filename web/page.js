@@ -26,6 +26,7 @@ const preset = element("preset", HTMLSelectElement);
 const search = element("search", HTMLInputElement);
 const undo = element("undo", HTMLButtonElement);
 const redo = element("redo", HTMLButtonElement);
+const ray = element("ray", HTMLElement);
 
 /** Pixels of the whole picture at most. */
 const MOST_PIXELS = 1920 * 1200;
@@ -61,14 +62,17 @@ const picture = new Picture(canvas, element("lines", HTMLCanvasElement), {
   },
   notice: (kind, content) => {
     if (kind === "facts") {
+      const first = !scene || isco !== (content.hole?.isco ?? null);
       scene = content.scene;
       place = { ...content.place, distance: content.place.distance ?? Infinity };
       faults.hidden = true;
       isco = content.hole?.isco ?? null;
       readouts(list, content);
       display();
+      // What stands beside it depends on the scene.
+      if (first) compare(wish(false));
     } else if (kind === "ray") {
-      showRay(element("ray", HTMLElement), content, size());
+      showRay(ray, content, size(), leave);
     } else if (kind === "progress") {
       saver.progress(content);
     } else if (kind === "unsaved") {
@@ -94,10 +98,11 @@ const saver = new Saver(
   () => size(),
 );
 
-/** Shows the values of settings. */
+/** Shows the values of settings; where the observer is, by distance and angles, however it was said. */
 function display() {
   const page = Object.fromEntries(Object.entries(own(course.look.set, true)).map(([key, value]) => [key.slice(5), value]));
-  panel.show({ ...scene, page }, course.look.set);
+  const observer = scene?.observer?.position && place ? { ...scene.observer, ...place } : scene?.observer;
+  panel.show({ ...scene, observer, page }, course.look.set);
 }
 
 /** @param {{ place: string, message: string, help: string }[]} found @param {HTMLElement} [box] */
@@ -171,6 +176,22 @@ function ask(moving) {
 /** The picture beside it, while there is one. @type {Picture | null} */
 let other = null;
 
+/** What differs in the picture beside it; none if there can be none. @param {string} how @returns {Record<string, any> | null} */
+function differing(how) {
+  const { set } = course.look;
+  const now = (/** @type {string} */ key) => set[key] ?? at(scene, key);
+  if (how === "counter") {
+    const key = ["spacetime.spin", "spacetime.parameters.spin"].find((key) => spun(key));
+    return key ? { [key]: -Number(now(key) ?? SETTINGS.find((setting) => setting.key === key && setting.when?.(scene))?.usual) } : null;
+  }
+  // Where space is flat no orbit is the last stable one: the edge stays where it was.
+  const edge = how === "flat" && now("disk.inner") === "isco" && isco ? { "disk.inner": round(isco, 5) } : {};
+  return { ...BESIDE[how], ...edge };
+}
+
+/** Whether a key is the spin of this spacetime. @param {string} key */
+const spun = (key) => SETTINGS.some((setting) => setting.key === key && setting.when?.(scene));
+
 /** @param {import("./link.js").Wish} wished */
 function compare(wished) {
   const { set } = course.look;
@@ -187,15 +208,28 @@ function compare(wished) {
   other ??= new Picture(element("other", HTMLCanvasElement), element("other-lines", HTMLCanvasElement), {
     frame: ignored, open: ignored, file: ignored,
     notice: (kind, content) => {
+      // What was seen before is not of this scene.
+      if (other) other.canvas.hidden = kind === "faults";
       if (kind === "faults") complain(content.faults, wrong);
       else if (kind === "facts") wrong.hidden = true;
     },
   });
-  /** @type {Record<string, any>} */
-  const differing = set["page.compare"] === "counter" ? { "spacetime.spin": -Number(set["spacetime.spin"] ?? at(scene ?? {}, "spacetime.spin") ?? 0.99) } : { ...how };
-  // Where space is flat no orbit is the last stable one: the edge stays where it was.
-  if (set["page.compare"] === "flat" && (set["disk.inner"] ?? at(scene ?? {}, "disk.inner")) === "isco" && isco) differing["disk.inner"] = round(isco, 5);
-  other.ask({ ...wished, set: keys(prune({ ...set, ...differing })) });
+  // Facts that are not there yet come, and with them this is asked again.
+  if (!scene) return;
+  const changes = differing(set["page.compare"]);
+  other.canvas.hidden = !changes;
+  if (!changes) {
+    complain([{ place: "", message: "nothing turns in this spacetime", help: "" }], wrong);
+    return;
+  }
+  other.ask({ ...wished, set: keys(prune({ ...set, ...changes })) });
+}
+
+/** Closes what a ray is shown in. */
+function leave() {
+  if (ray.hidden) return;
+  ray.hidden = true;
+  canvas.focus({ preventScroll: true });
 }
 
 const slider = element("slider", HTMLInputElement);
@@ -310,8 +344,11 @@ preset.onchange = () => {
 /** @param {boolean} back */
 function step(back) {
   if (back ? course.undo() : course.redo()) {
+    const focused = document.activeElement;
     scene = null;
     settle();
+    // A button that can be pressed no more keeps no focus.
+    if (focused instanceof HTMLButtonElement && focused.disabled) canvas.focus({ preventScroll: true });
   }
 }
 undo.onclick = () => step(true);
@@ -358,12 +395,15 @@ element("theme", HTMLButtonElement).onclick = () => {
 
 search.oninput = () => panel.search(search.value);
 document.addEventListener("keydown", (event) => {
-  const typing = event.target instanceof HTMLInputElement && event.target.type !== "range" && event.target.type !== "checkbox";
-  if (typing || event.ctrlKey || event.metaKey || event.altKey) return;
+  const { target } = event;
+  const typing = target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type !== "range" && target.type !== "checkbox");
+  if (typing || event.ctrlKey || event.metaKey || event.altKey || document.querySelector("dialog[open]")) return;
   if (event.key === "/") {
     event.preventDefault();
     search.focus();
-  } else if (event.key === "s" && !element("saver", HTMLDialogElement).open) {
+  } else if (event.key === "Escape") {
+    leave();
+  } else if (event.key.toLowerCase() === "s") {
     saver.open();
   } else if (event.key.toLowerCase() === "u") {
     step(!event.shiftKey);

@@ -22,13 +22,14 @@ const FATES = {
  * @param {HTMLElement} box
  * @param {{ at: [number, number], horizon: number, ray: any }} content
  * @param {[number, number]} size
+ * @param {() => void} leave
  */
-export function showRay(box, { at, horizon, ray }, size) {
+export function showRay(box, { at, horizon, ray }, size, leave) {
   const pixel = at.map((share, k) => Math.min(size[k] - 1, Math.floor(share * size[k])));
   const head = make("div", { className: "head" });
-  const close = make("button", { type: "button", textContent: "×", title: "Close" });
+  const close = make("button", { type: "button", textContent: "×", title: "Close (Esc)" });
   close.setAttribute("aria-label", "Close");
-  close.onclick = () => (box.hidden = true);
+  close.onclick = leave;
   head.append(make("h2", { textContent: `Ray of pixel ${pixel.join(", ")}` }), close);
   const list = make("dl");
   const row = (/** @type {string} */ name, /** @type {string} */ value) =>
@@ -36,7 +37,8 @@ export function showRay(box, { at, horizon, ray }, size) {
   row("Light", FATES[ray.fate] ?? ray.fate);
   if (ray.direction) {
     const degrees = (/** @type {number} */ angle) => `${((angle * 180) / Math.PI).toFixed(2)}°`;
-    row("From", `θ ${degrees(ray.direction.theta)}, φ ${degrees(ray.direction.phi)}`);
+    const { theta, phi } = ray.direction;
+    row("From", `θ ${degrees(theta)}, φ ${degrees(phi - 2 * Math.PI * Math.round(phi / (2 * Math.PI)))}`);
   }
   if (ray.hit) row("Thing", `number ${ray.hit.object}`);
   const { lambda, eta } = ray.conserved;
