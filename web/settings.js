@@ -129,7 +129,7 @@ export const SETTINGS = [
   {
     key: "disk.gravitational", label: "Gravitational shift", group: "Disk", kind: "toggle", when: disk, words: "redshift gravity",
   },
-  { key: "disk.beaming", label: "Beaming", group: "Disk", kind: "toggle", when: disk, words: "brightness shift" },
+  { key: "disk.beaming", label: "Beaming, by these shifts", group: "Disk", kind: "toggle", when: disk, words: "brightness shift" },
   {
     key: "disk.orders", label: "Image orders", group: "Disk", kind: "choice", when: disk, words: "photon ring",
     choices: [[undefined, "all"], [[0], "0: direct"], [[1], "1: once around"], [[2], "2"], [[1, 2, 3, 4, 5, 6, 7], "1 and more"]],
@@ -255,6 +255,7 @@ export const PRESETS = [
     set: {
       "spacetime.spin": 0.9, "observer.distance": "inf", "observer.inclination": 163, "screen.kind": "impact",
       "screen.field_of_view": 28, "screen.roll": -108, "disk.model": "power-law", "disk.inner": "isco", "disk.outer": 30, "disk.index": 4,
+      "disk.optically_thin": true,
       "sky.kind": "black", "camera.display.exposure": 3, "units.mass": 6.5e9, "units.distance": 16.8e6,
     },
   },
@@ -262,7 +263,10 @@ export const PRESETS = [
   { name: "Edge-on", base: "built-in", set: { "observer.inclination": 89.5, "spacetime.spin": 0.9 } },
   {
     name: "Extreme spin", base: "built-in",
-    set: { "spacetime.spin": 0.999, "disk.model": "page-thorne", "disk.light": "blackbody", "disk.temperature": 6500, "disk.outer": 18, "observer.inclination": 78, "camera.display.tone": "filmic", "camera.display.exposure": 1 },
+    set: {
+      "spacetime.spin": 0.999, "disk.model": "power-law", "disk.index": 1.5, "disk.light": "blackbody", "disk.temperature": 6500,
+      "disk.outer": 18, "observer.inclination": 72, "camera.display.tone": "filmic", "camera.display.exposure": 2,
+    },
   },
   {
     name: "Inside the photon shell", base: "built-in",

@@ -98,7 +98,8 @@ pub enum FitError {
     NoSilhouette(String),
     /// The model has no picture near the data.
     #[error(
-        "no parameters were found with which the model has a picture: fix some with --fix, or give priors"
+        "no parameters were found with which the model has a picture: fix some with --fix, or give priors. Seen from nearby, a disk needs \
+         an outer edge, within 0.8 of the observer's distance: --fix outer=R, or --free outer"
     )]
     NoStart,
     /// It was stopped.

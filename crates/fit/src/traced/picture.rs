@@ -135,7 +135,7 @@ impl<'a> Stand<'a> {
         let mut inner_rates = [0.0; MOVES];
         inner_rates[0] = -0.5 * inner * radius_rates[0] / radius;
         inner_rates[HOLE] = -0.5 * inner * radius_rates[1] / radius;
-        let bounded = setting.outer * setting.u <= 0.5 && setting.outer.is_finite();
+        let bounded = setting.outer * setting.u <= NEAR && setting.outer.is_finite();
         let bound = bounded.then(|| setting.outer.powf(-0.5));
         let outer_rates = bound.map(|outer| {
             let mut moves = [0.0; MOVES];
@@ -182,6 +182,9 @@ pub struct Painter {
 
 /// x up to which images of higher orders are followed in a disk without an outer edge, r = 2500 M: the rest is dark.
 const FAR_X: f64 = 0.02;
+
+/// The largest outer radius of a disk with an edge, as a share of the observer's: one farther out is drawn as one without an edge.
+const NEAR: f64 = 0.8;
 
 /// Inclinations, degrees, and the steps between rows there as a share of those from the side.
 const CLOSER: [(f64, f64); 3] = [(7.0, 0.3), (22.0, 0.5), (40.0, 1.0)];
