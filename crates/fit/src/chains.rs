@@ -53,6 +53,9 @@ pub struct Chain {
     pub(crate) place: Vec<f64>,
     /// The same place in the metric, without a gradient where none was asked for.
     pub(crate) state: State,
+    /// What the model leaves of each pixel there, where it is known.
+    #[serde(skip)]
+    pub(crate) residuals: Vec<f64>,
     pace: Pace,
 }
 
@@ -135,7 +138,7 @@ impl<'a, S: Source> Field<'a, S> {
                     if let Some(place) = smooth.outside(&z)
                         && let Some(state) = self.state(metric, &place)
                     {
-                        return Some(Chain { place, state, pace: Pace::new(0.6) });
+                        return Some(Chain { place, state, residuals: Vec::new(), pace: Pace::new(0.6) });
                     }
                 }
                 None
@@ -274,6 +277,7 @@ impl<'a, S: Source> Field<'a, S> {
                 let (state, step) = step(&mut target, &chain.state, size, rng);
                 if let Some(place) = metric.outside(&state.z) {
                     (chain.place, chain.state) = (place, state);
+                    chain.residuals.clear();
                 }
                 if warm.is_some() {
                     chain.pace.learn(step.acceptance);

@@ -1,4 +1,4 @@
-//! Leaps: proposals of places from around all modes, and short random walks between them.
+//! Leaps: proposals of places from around all modes, and between them short random walks and draws of the noise alone.
 //!
 //! Proposals are drawn in coordinates that are straight between bounds, again and again until one lies within them, so that their density
 //! is the same there but for a constant. A place and its mirror image (of a blur below 0) are one: both are proposed alike.
@@ -63,6 +63,7 @@ impl<S: Source> Field<'_, S> {
                 draws.leaps[1] += usize::from(self.leap(metric, chain, rng));
             }
             self.wander(metric, chain, rng);
+            self.reckon(metric, chain, rng);
             draws.evaluations += LEAPS + 1;
             draws.places.push(chain.place.clone());
             draws.logs.push(chain.state.log);
@@ -85,6 +86,24 @@ impl<S: Source> Field<'_, S> {
         {
             chain.state = State { z, log: found.log, gradient: Vec::new() };
             chain.place = to;
+            chain.residuals = found.residuals;
+        }
+    }
+
+    /// Draws the noise anew for the picture as it is: where the model's own errors explain most of the residuals it may be anything
+    /// below them, far from the other proposals.
+    fn reckon(&self, metric: &Metric, chain: &mut Chain, rng: &mut Pcg64Mcg) {
+        if chain.residuals.is_empty()
+            && let Some(found) = self.posterior.at(&chain.place, Ask::Value)
+        {
+            chain.residuals = found.residuals;
+        }
+        if let Some(last) = chain.place.last_mut()
+            && let Some((q, change)) = self.posterior.noise_given(&chain.residuals, *last, rng)
+        {
+            *last = q;
+            let z = metric.inside(&chain.place).as_slice().to_vec();
+            chain.state = State { z, log: chain.state.log + change, gradient: Vec::new() };
         }
     }
 
@@ -101,6 +120,7 @@ impl<S: Source> Field<'_, S> {
             let z = metric.inside(&to).as_slice().to_vec();
             chain.state = State { z, log: found.log, gradient: Vec::new() };
             chain.place = to;
+            chain.residuals = found.residuals;
         }
         accepted
     }

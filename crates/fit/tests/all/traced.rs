@@ -82,7 +82,13 @@ fn means_over_pixels() {
         let mut worst = 0.0_f64;
         // The third image is some hundredths of a pixel wide: samples have to lie closer.
         // The same goes for edges at which the light ends at once.
-        let (step, fine) = if p[2] > 0.01 { (83, 800) } else if power { (47, 800) } else { (29, 320) };
+        let (step, fine) = if p[2] > 0.01 {
+            (83, 800)
+        } else if power {
+            (47, 800)
+        } else {
+            (29, 320)
+        };
         for pixel in (3..SIZE * SIZE).step_by(step) {
             let expected = mean(&p, power, opaque, pixel, fine);
             worst = worst.max((canvas.pixels()[pixel][0] - expected).abs() / peak);
