@@ -32,7 +32,10 @@ use crate::{Format, parse_distance, parse_finite, print, print_json, progress};
     picture. Where it has none, what the model may be wrong by takes its place. Give --distance where it\n\
     is known (inf for the sky): not knowing it costs errors, assuming a wrong one a bias. Of a disk\n\
     seen from r = 100 M (a = 0.9, 60°) a fit that assumes 1000 M finds the spin 0.035 and the\n\
-    inclination 1.7° too small, the scale 5 % too large, and says that it is poor.\n\n\
+    inclination 1.7° too small, the scale 5 % too large, and says that it is poor. A disk seen from nearby needs its outer edge,\n\
+    within 0.8 of the distance: --fix outer=R or --free outer; a camera's picture --projection pinhole.\n\n\
+    Parameters: spin, inclination, position_angle, scale (M a pixel), center_x, center_y (pixels), distance (M), inner (in last\n\
+    stable orbits), outer (M), blur (pixels), flux, background; index of power laws; diameter, width and more of a ring.\n\
     A parameter is fixed by --fix NAME=VALUE, or has another prior by --prior 'NAME=uniform(0, 1)' (or log-uniform, normal,\n\
     isotropic); --free NAME frees what is usually fixed. A file of --parameters says the same:\n  \
     model = \"page-thorne\"\n  [parameters]\n  spin = 0.9\n  blur = \"free\"\n  inclination = \"isotropic(0, 90)\"\n\n\
