@@ -2,9 +2,9 @@
 //!
 //! Chains begin around the modes, drawn with a wider spread. In posteriors of clear pictures, which are nearly Gaussians, they leap: to
 //! places drawn from Student's distributions around all modes (of eight degrees of freedom), accepted by Metropolis & Hastings, and by
-//! short random walks between; leaps change between modes as often as their weights ask for. Where too few leaps succeed, chains move
-//! by the No-U-Turn Sampler (`leap.rs` has the leaps), one leap after each trajectory. A leap costs one evaluation of the model, a trajectory some seven with
-//! gradients.
+//! short random walks between (`leap.rs`); leaps change between modes as often as their weights ask for. Where too few leaps succeed,
+//! chains move by the No-U-Turn Sampler, one leap after each trajectory. A leap costs one evaluation of the model, a trajectory some
+//! seven with gradients.
 //!
 //! A round of draws is a function of the round before and of the seed, whatever the number of threads.
 

@@ -98,8 +98,7 @@ pub enum FitError {
     NoSilhouette(String),
     /// The model has no picture near the data.
     #[error(
-        "no parameters were found with which the model has a picture: fix some with --fix, or give priors. Seen from nearby, a disk needs \
-         an outer edge, within 0.8 of the observer's distance: --fix outer=R, or --free outer"
+        "no parameters were found with which the model has a picture: fix some, or give priors; from nearby, --fix outer=R below 0.8 of r"
     )]
     NoStart,
     /// It was stopped.

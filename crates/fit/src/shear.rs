@@ -155,16 +155,12 @@ mod tests {
     use crate::model::{Freedom, Parameter};
     use crate::prior::Prior;
 
+    fn parameter(name: &'static str, bounds: [f64; 2]) -> Parameter {
+        Parameter { name, unit: "", meaning: "", bounds, pixels: 0, usual: Freedom::Fixed(0.0) }
+    }
+
     /// Coordinates of a flux anywhere and of a distance.
     fn flux_and_distance() -> Coordinates {
-        let parameter = |name, bounds| Parameter {
-            name,
-            unit: "",
-            meaning: "",
-            bounds,
-            pixels: 0,
-            usual: Freedom::Fixed(0.0),
-        };
         let everywhere = [f64::NEG_INFINITY, f64::INFINITY];
         let parameters = [parameter("flux", everywhere), parameter("distance", [0.0, f64::INFINITY])];
         let free = [
@@ -223,14 +219,6 @@ mod tests {
     /// In coordinates that are straight between bounds the line leads through the same places, the same way.
     #[test]
     fn between_bounds_too() {
-        let parameter = |name, bounds| Parameter {
-            name,
-            unit: "",
-            meaning: "",
-            bounds,
-            pixels: 0,
-            usual: Freedom::Fixed(0.0),
-        };
         let parameters = [parameter("spin", [-1.0, 1.0]), parameter("distance", [0.0, f64::INFINITY])];
         let free = [Freedom::Free(Prior::Uniform(-1.0, 1.0)), Freedom::Free(Prior::LogUniform(40.0, 1e4))];
         let coordinates = Coordinates::new(&parameters, &free, &[1.0, 1.0]);
