@@ -17,29 +17,47 @@ const NUMBERS: usize = 1 + GLOWS + 2 * MOVERS + 1;
 pub struct Corner {
     /// Pixels from the top left corner, to the right and down.
     pub place: [f64; 2],
+    /// What the brightness changes by per pixel to the right and down.
+    slope: [f64; 2],
     numbers: [f64; NUMBERS],
 }
 
 impl Corner {
-    /// A corner whose matter has a brightness that changes by `glow` while it moves by `moves` pixels.
-    pub fn new(place: [f64; 2], light: f64, glow: [f64; GLOWS], moves: [[f64; 2]; MOVERS]) -> Self {
+    /// A corner with its brightness alone.
+    pub fn lit(place: [f64; 2], light: f64) -> Self {
+        let mut numbers = [0.0; NUMBERS];
+        numbers[0] = light;
+        Self { place, slope: [0.0; 2], numbers }
+    }
+
+    /// A corner whose matter has a brightness that changes by `glow` while it moves by `moves` pixels, and by `slope` from pixel to
+    /// pixel.
+    pub fn new(
+        place: [f64; 2],
+        (light, slope): (f64, [f64; 2]),
+        glow: [f64; GLOWS],
+        moves: [[f64; 2]; MOVERS],
+    ) -> Self {
         let mut numbers = [0.0; NUMBERS];
         numbers[0] = light;
         numbers[1..=GLOWS].copy_from_slice(&glow);
         for (pair, moved) in numbers[1 + GLOWS..].chunks_exact_mut(2).zip(moves) {
             pair.copy_from_slice(&moved);
         }
-        Self { place, numbers }
+        Self { place, slope, numbers }
     }
 
-    /// Between this and another.
-    pub fn between(&self, other: &Self, share: f64) -> Self {
-        let mut corner = *self;
-        for (number, to) in corner.numbers.iter_mut().zip(other.numbers) {
-            *number += share * (to - *number);
-        }
-        for (place, to) in corner.place.iter_mut().zip(other.place) {
-            *place += share * (to - *place);
+    /// Some of four.
+    pub fn mixed(four: [&Self; 4], shares: [f64; 4]) -> Self {
+        let mut corner = Self { place: [0.0; 2], slope: [0.0; 2], numbers: [0.0; NUMBERS] };
+        for (one, share) in four.into_iter().zip(shares) {
+            for (number, own) in corner.numbers.iter_mut().zip(one.numbers) {
+                *number += share * own;
+            }
+            for k in 0..2 {
+                corner.place[k] += share * one.place[k];
+                corner.slope[k] += share * one.slope[k];
+            }
         }
         corner
     }
@@ -69,17 +87,20 @@ pub struct Canvas {
     pixels: Vec<[f64; CHANNELS]>,
 }
 
+/// Corners of a polygon, at most.
+const CORNERS: usize = 12;
+
 /// A polygon of few corners.
 #[derive(Clone, Copy)]
 struct Polygon {
-    corners: [[f64; 2]; 12],
+    corners: [[f64; 2]; CORNERS],
     count: usize,
 }
 
 impl Polygon {
     /// The part on one side of a line across an axis: where the coordinate is above `bound`, or below.
     fn clipped(&self, axis: usize, bound: f64, above: bool) -> Self {
-        let mut part = Self { corners: [[0.0; 2]; 12], count: 0 };
+        let mut part = Self { corners: [[0.0; 2]; CORNERS], count: 0 };
         if self.count == 0 {
             return part;
         }
@@ -88,7 +109,7 @@ impl Polygon {
         let mut before_depth = depth(&before);
         for corner in &self.corners[..self.count] {
             let here = depth(corner);
-            if (here > 0.0) != (before_depth > 0.0) && part.count < 12 {
+            if (here > 0.0) != (before_depth > 0.0) && part.count < CORNERS {
                 let share = before_depth / (before_depth - here);
                 let mut cut = [0.0; 2];
                 for k in 0..2 {
@@ -98,7 +119,7 @@ impl Polygon {
                 part.corners[part.count] = cut;
                 part.count += 1;
             }
-            if here > 0.0 && part.count < 12 {
+            if here > 0.0 && part.count < CORNERS {
                 part.corners[part.count] = *corner;
                 part.count += 1;
             }
@@ -139,22 +160,36 @@ impl Canvas {
         &self.pixels
     }
 
-    /// Draws a cell of four corners, between which its numbers are linear: the mean over each pixel of what lies in it.
-    pub fn cell(&mut self, corners: [&Corner; 4]) {
-        let places = corners.map(|corner| corner.place);
+    /// Whether what lies between two places may be in the picture.
+    pub fn sees(&self, [from, to]: [[f64; 2]; 2]) -> bool {
+        let size = [self.width as f64, self.height as f64];
+        (0..2).all(|k| from[k].max(to[k]) > 0.0 && from[k].min(to[k]) < size[k])
+    }
+
+    /// Draws a cell of four corners, between which its numbers are linear: the mean over each pixel of what lies in it. Its second and
+    /// its fourth side may be bent, by way of further places.
+    pub fn cell(
+        &mut self,
+        corners: [&Corner; 4],
+        second: impl Iterator<Item = [f64; 2]>,
+        fourth: impl Iterator<Item = [f64; 2]>,
+    ) {
+        let [a, b, c, d] = corners.map(|corner| corner.place);
+        let mut polygon = Polygon { corners: [[0.0; 2]; CORNERS], count: 0 };
+        for place in [a, b].into_iter().chain(second).chain([c, d]).chain(fourth) {
+            polygon.corners[polygon.count] = place;
+            polygon.count += 1;
+        }
         let bounds = |axis: usize| {
-            let values = places.map(|place| place[axis]);
-            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
-            (low, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
+            let values = polygon.corners[..polygon.count].iter().map(|place| place[axis]);
+            values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
         };
         let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
         let (width, height) = (self.width as f64, self.height as f64);
         if !(right > 0.0 && left < width && bottom > 0.0 && top < height) {
             return;
         }
-        let plane = Plane::through(&places);
-        let mut polygon = Polygon { corners: [[0.0; 2]; 12], count: 4 };
-        polygon.corners[..4].copy_from_slice(&places);
+        let plane = Plane::through(&corners, &polygon);
         let columns = [left.max(0.0).floor(), right.min(width).ceil()];
         let rows = [top.max(0.0).floor(), bottom.min(height).ceil()];
         let inside = left >= 0.0 && right <= width && top >= 0.0 && bottom <= height;
@@ -193,7 +228,7 @@ impl Canvas {
                 *sum += share * number;
             }
         }
-        let [along, across] = plane.slope(corners);
+        let [along, across] = plane.slope_at(area, [x, y]);
         pixel[0] += sums[0];
         // At a fixed place: what the matter's brightness changes by, less what comes by with its motion.
         for (channel, sum) in layout.glows.iter().zip(&sums[1..]) {
@@ -240,20 +275,26 @@ impl Canvas {
     }
 }
 
-/// The linear function that comes closest to four values.
+/// Linear functions that come closest to values at four corners.
 struct Plane {
     middle: [f64; 2],
     /// How much of each corner's value makes the slopes.
     slopes: [[f64; 2]; 4],
+    /// The slope of the brightness: such that what it rises by across the cell is the difference of its corners.
+    slope: [f64; 2],
+    /// What that slope changes by per pixel, and where it is the mean.
+    bend: [[f64; 2]; 2],
+    center: [f64; 2],
 }
 
 impl Plane {
-    fn through(places: &[[f64; 2]; 4]) -> Self {
+    fn through(corners: &[&Corner; 4], cell: &Polygon) -> Self {
         let mut middle = [0.0; 2];
-        for place in places {
-            middle = [middle[0] + 0.25 * place[0], middle[1] + 0.25 * place[1]];
+        for corner in corners {
+            middle = [middle[0] + 0.25 * corner.place[0], middle[1] + 0.25 * corner.place[1]];
         }
-        let from: [[f64; 2]; 4] = places.map(|p| [p[0] - middle[0], p[1] - middle[1]]);
+        let from: [[f64; 2]; 4] =
+            std::array::from_fn(|k| [corners[k].place[0] - middle[0], corners[k].place[1] - middle[1]]);
         let [mut xx, mut xy, mut yy] = [0.0; 3];
         for [x, y] in from {
             (xx, xy, yy) = (xx + x * x, xy + x * y, yy + y * y);
@@ -262,16 +303,27 @@ impl Plane {
         // A cell without width has no slope across: nothing is in it.
         let per = if determinant > 1e-12 * xx * yy { determinant.recip() } else { 0.0 };
         let slopes = from.map(|[x, y]| [(yy * x - xy * y) * per, (xx * y - xy * x) * per]);
-        Self { middle, slopes }
+        let (mut slope, mut bend) = ([0.0; 2], [[0.0; 2]; 2]);
+        for (share, corner) in slopes.iter().zip(corners) {
+            for k in 0..2 {
+                slope[k] += share[k] * corner.numbers[0];
+                for (bend, slope) in bend.iter_mut().zip(corner.slope) {
+                    bend[k] += share[k] * slope;
+                }
+            }
+        }
+        let [area, x, y] = cell.moments(middle);
+        let center = if area > 0.0 { [x / area, y / area] } else { [0.0; 2] };
+        Self { middle, slopes, slope, bend, center }
     }
 
-    /// The slopes of the brightness.
-    fn slope(&self, corners: &[&Corner; 4]) -> [f64; 2] {
-        let mut slope = [0.0; 2];
-        for (share, corner) in self.slopes.iter().zip(corners) {
-            slope = [slope[0] + share[0] * corner.numbers[0], slope[1] + share[1] * corner.numbers[0]];
+    /// The mean slope of the brightness in a piece, from its area and its first moments.
+    fn slope_at(&self, area: f64, [x, y]: [f64; 2]) -> [f64; 2] {
+        if area <= 0.0 {
+            return self.slope;
         }
-        slope
+        let [x, y] = [x / area - self.center[0], y / area - self.center[1]];
+        [0, 1].map(|k| self.slope[k] + self.bend[k][0] * x + self.bend[k][1] * y)
     }
 
     /// What of each corner's value makes the integral over a piece.

@@ -87,7 +87,8 @@ pub struct Point {
 /// The image of an order along lines of constant χ.
 #[derive(Clone, Debug)]
 pub struct Lines {
-    order: usize,
+    /// Which image.
+    pub order: usize,
     /// Terms of the first of a node's values, and what they change by with χ: a column for each line.
     terms: [DMatrix<f64>; 2],
     /// Terms of ∂ln ρ/∂p, those of all p side by side; none if they are not asked for.

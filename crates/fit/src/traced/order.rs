@@ -57,7 +57,7 @@ impl View {
 
     /// q: how flat the disk is, but for what its light's bending does.
     fn flatness(&self) -> f64 {
-        self.inclination.cos().max(0.2)
+        self.inclination.cos().max(0.3)
     }
 
     /// ψ and dψ/dχ.

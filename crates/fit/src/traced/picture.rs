@@ -192,6 +192,10 @@ const CLOSER: [(f64, f64); 3] = [(7.0, 0.3), (22.0, 0.5), (40.0, 1.0)];
 /// Steps between which the rows of a disk are spread.
 const GRID: usize = 400;
 
+/// How many of the rows images have by their orders, from the side, and at least.
+const ROWS: [f64; ORDERS] = [1.0, 0.4, 0.1, 0.05];
+const FEWEST: f64 = 8.0;
+
 /// Rows of a disk that is lit evenly.
 const EVEN_ROWS: usize = 6;
 
@@ -259,8 +263,7 @@ impl Painter {
         let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
         for (order, image) in lines.iter().enumerate() {
             let before = if self.opaque { &lines[..order] } else { &[] };
-            let closer = self.closer(view.inclination);
-            let rows = thinned(&self.rows(matter, [*inner, stand.outer(order, 0.0)], closer), order);
+            let rows = self.rows(matter, [*inner, stand.outer(order, 0.0)], order, view.inclination);
             Painting { sketch: &sketch, image, before, rates, rows: &rows }
                 .draw(self.fineness.lines, &mut canvas);
         }
@@ -305,8 +308,8 @@ impl Painter {
         })
     }
 
-    /// t of the rows of the direct image: close where the flux bends.
-    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2], closer: f64) -> Vec<f64> {
+    /// t of the rows of an image: close where the flux bends, and fewer where it is thinner.
+    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2], order: usize, inclination: f64) -> Vec<f64> {
         if matter.even() {
             // What is the same everywhere has edges alone.
             return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
@@ -319,9 +322,10 @@ impl Painter {
             let relative = 2.0 * (inner - outer) / GRID as f64 / middle;
             let bend = matter.smoothness(middle, largest) * self.fineness.bend;
             let steps = (relative / self.fineness.step).max(relative * middle.powi(-2) / bend);
-            sums.push(sums[k] + steps / closer);
+            sums.push(sums[k] + steps);
         }
-        let count = sums[GRID].ceil().clamp(8.0, 2000.0);
+        let share = if order == 0 { self.closer(inclination).recip() } else { ROWS[order] };
+        let count = (sums[GRID] * share).ceil().clamp(FEWEST, 2000.0);
         let mut rows = Vec::new();
         let mut k = 0;
         for row in 0..=count as usize {
@@ -335,19 +339,6 @@ impl Painter {
         }
         rows
     }
-}
-
-/// Fewer rows for images that are thinner.
-fn thinned(rows: &[f64], order: usize) -> Vec<f64> {
-    let share = [1.0, 0.4, 0.2, 0.1][order];
-    let count = ((rows.len() - 1) as f64 * share).ceil().max(6.0) as usize;
-    (0..=count)
-        .map(|k| {
-            let place = k as f64 / count as f64 * (rows.len() - 1) as f64;
-            let below = (place as usize).min(rows.len() - 2);
-            rows[below] + (place - below as f64) * (rows[below + 1] - rows[below])
-        })
-        .collect()
 }
 
 impl Setting {

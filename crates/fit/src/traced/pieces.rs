@@ -16,12 +16,14 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Between this and another.
-    pub fn between(&self, other: &Self, share: f64) -> Self {
-        let mut bound = *self;
-        bound.rho += share * (other.rho - self.rho);
-        for (moved, to) in bound.moves.iter_mut().zip(other.moves) {
-            *moved += share * (to - *moved);
+    /// Some of four.
+    pub fn mixed(four: [&Self; 4], shares: [f64; 4]) -> Self {
+        let mut bound = Self::default();
+        for (one, share) in four.into_iter().zip(shares) {
+            bound.rho += share * one.rho;
+            for (moved, own) in bound.moves.iter_mut().zip(one.moves) {
+                *moved += share * own;
+            }
         }
         bound
     }

@@ -51,7 +51,7 @@ impl Sketch<'_> {
         let glow = self.matter.glow(point.x, lambda + per_alpha * impact[0]);
         let spot = self.screen.spot(impact);
         if !self.derivatives {
-            return Corner::new(spot.pixel, glow.value, [0.0; 4], [[0.0; 2]; MOVERS]);
+            return Corner::lit(spot.pixel, glow.value);
         }
         // The matter keeps its radius and its direction ψ.
         let mut glows = [glow.spin, 0.0, 0.0, glow.index];
@@ -72,7 +72,13 @@ impl Sketch<'_> {
             let [x, y] = [own[0] - drift[0], own[1] - drift[1]];
             moves[k] = [(yy * x - xy * y) / determinant, (xx * y - yx * x) / determinant];
         }
-        Corner::new(spot.pixel, glow.value, glows, moves)
+        // dr/dx = −2/x³.
+        let per_x = -2.0 * glow.radius / point.x.powi(3);
+        let outwards = per_x * point.slope[0] + glow.lambda * per_alpha * cos;
+        let around = per_x * point.slope[1] / point.rho - glow.lambda * per_alpha * sin;
+        let [by_alpha, by_beta] = [outwards * cos - around * sin, outwards * sin + around * cos];
+        let slope = [by_alpha * xx + by_beta * yx, by_alpha * xy + by_beta * yy];
+        Corner::new(spot.pixel, (glow.value, slope), glows, moves)
     }
 
     /// What both edges sweep over between two lines.
@@ -80,12 +86,10 @@ impl Sketch<'_> {
         let (center, center_moves) = self.center();
         for (side, sign) in [(0, -1.0), (1, 1.0)] {
             let ends = [from, to];
-            let corners =
-                ends.map(
-                    |strip| {
-                        if side == 0 { &strip.corners[0] } else { &strip.corners[strip.corners.len() - 1] }
-                    },
-                );
+            let corners = ends.map(|strip| strip.ends()[side]);
+            if corners.iter().all(|corner| corner.light() == 0.0) || !canvas.sees(corners.map(|c| c.place)) {
+                continue;
+            }
             let bounds = ends.map(|strip| strip.bounds[side]);
             let rays = ends.map(|strip| strip.ray);
             let impact = [0, 1].map(|k| [center + bounds[k].rho * rays[k][0], bounds[k].rho * rays[k][1]]);

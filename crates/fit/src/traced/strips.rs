@@ -2,11 +2,22 @@
 
 use super::canvas::{Canvas, Corner};
 use super::lines::{Basis, Lines};
+use super::order::ORDERS;
 use super::pieces::{Bound, Rates, edges, left};
 use super::sketch::Sketch;
 
-/// Parts of a strip in which other edges begin to bound an image, or one ends: there edges have corners.
-const PARTS: usize = 16;
+/// Straight pieces of an edge between two lines: its bend between lines is that of a cubic through four of them.
+const PIECES: usize = 4;
+
+/// Of how many such pieces the cells of an image are made, by its order. What is straight between 320 lines lies some 1e-3 pixels beside
+/// the curve, which counts where all of an image is thinner than a pixel.
+const COARSE: [usize; ORDERS] = [4, 2, 1, 1];
+
+/// Bisections between two lines between which other edges begin to bound an image, or one ends: there edges have corners.
+const SEARCH: usize = 20;
+
+/// Changes of edges within a piece, at most.
+const CHANGES: usize = 4;
 
 /// A line with its corners.
 #[derive(Clone)]
@@ -15,8 +26,26 @@ pub struct Strip {
     pub bounds: [Bound; 2],
     /// Cosine and sine of its direction.
     pub ray: [f64; 2],
-    /// Corners from the one to the other.
+    /// Corners from the one to the other, both ends at least.
     pub corners: Vec<Corner>,
+}
+
+impl Strip {
+    /// Corners at both ends.
+    pub fn ends(&self) -> [&Corner; 2] {
+        [&self.corners[0], &self.corners[self.corners.len() - 1]]
+    }
+
+    /// Some of four; both ends alone, or all corners.
+    fn between(four: [&Self; 4], shares: [f64; 4], ends: bool) -> Self {
+        let corner = |k: usize| Corner::mixed(four.map(|strip| &strip.corners[k]), shares);
+        let count = four[1].corners.len();
+        let corners =
+            if ends { vec![corner(0), corner(count - 1)] } else { (0..count).map(corner).collect() };
+        let ray = mixed(four.map(|strip| strip.ray), shares);
+        let bounds = [0, 1].map(|k| Bound::mixed(four.map(|strip| &strip.bounds[k]), shares));
+        Self { bounds, ray, corners }
+    }
 }
 
 /// An image that is seen past those before it.
@@ -47,18 +76,66 @@ impl Cut {
         Self { own, others, left }
     }
 
-    /// Between two lines.
-    fn between(&self, other: &Self, share: f64) -> Self {
-        let pair = |a: &[Bound; 2], b: &[Bound; 2]| [a[0].between(&b[0], share), a[1].between(&b[1], share)];
-        let others = self.others.iter().zip(&other.others).map(|(a, b)| pair(a, b)).collect();
-        Self::new(pair(&self.own, &other.own), others)
+    /// Some of four.
+    fn mixed(four: [&Self; 4], shares: [f64; 4]) -> Self {
+        let mix = |pick: &dyn Fn(&Self) -> [Bound; 2]| {
+            let pairs = four.map(pick);
+            [0, 1].map(|side| Bound::mixed(std::array::from_fn(|k| &pairs[k][side]), shares))
+        };
+        let others = (0..four[0].others.len()).map(|k| mix(&|cut| cut.others[k]));
+        Self::new(mix(&|cut| cut.own), others.collect())
     }
 
-    /// Which edges bound a stretch: its own, others, or none, where nothing is left.
-    fn kind(&self, rank: usize) -> Option<[bool; 2]> {
+    /// Which edges bound a stretch, its own before those of others, or none, where nothing is left.
+    fn kind(&self, rank: usize) -> Option<[usize; 2]> {
         let [from, to] = self.left[rank];
-        (to.rho > from.rho).then(|| [from.rho == self.own[0].rho, to.rho == self.own[1].rho])
+        let which = |bound: Bound| {
+            let all = std::iter::once(&self.own).chain(&self.others).flatten();
+            all.enumerate().find(|(_, edge)| edge.rho == bound.rho).map_or(0, |(k, _)| k)
+        };
+        (to.rho > from.rho).then(|| [from, to].map(which))
     }
+}
+
+/// Shares of four values at equal steps between the second and the third: Lagrange's cubic.
+fn cubic(s: f64) -> [f64; 4] {
+    [
+        -s * (s - 1.0) * (s - 2.0) / 6.0,
+        (s + 1.0) * (s - 1.0) * (s - 2.0) / 2.0,
+        -(s + 1.0) * s * (s - 2.0) / 2.0,
+        (s + 1.0) * s * (s - 1.0) / 6.0,
+    ]
+}
+
+/// Places between 0 and 1 at which the pieces of an edge meet, and both sides of those at which another edge takes its place.
+fn places<K: PartialEq>(kind: impl Fn(f64) -> K) -> Vec<f64> {
+    let mut places = vec![0.0];
+    for piece in 1..=PIECES {
+        let end = piece as f64 / PIECES as f64;
+        let last = kind(end);
+        let mut from = places[places.len() - 1];
+        // A thin image may lose one of its edges and vanish within a piece.
+        for _ in 0..CHANGES {
+            let first = kind(from);
+            if first == last {
+                break;
+            }
+            let [mut low, mut high] = [from, end];
+            for _ in 0..SEARCH {
+                let middle = 0.5 * (low + high);
+                *(if kind(middle) == first { &mut low } else { &mut high }) = middle;
+            }
+            places.extend([low, high]);
+            from = high;
+        }
+        places.push(end);
+    }
+    places[1..places.len() - 1].to_vec()
+}
+
+/// Some of four directions.
+fn mixed(rays: [[f64; 2]; 4], shares: [f64; 4]) -> [f64; 2] {
+    [0, 1].map(|k| rays.iter().zip(shares).map(|(ray, share)| share * ray[k]).sum())
 }
 
 impl Painting<'_> {
@@ -71,42 +148,75 @@ impl Painting<'_> {
         let cuts: Vec<Cut> = (0..lines).map(cut).collect();
         let bases: Vec<Basis> = self.rows.iter().map(|t| Basis::at(*t)).collect();
         for rank in 0..=self.before.len() {
-            let mut last: Option<(usize, Strip)> = None;
+            let kinds: Vec<_> = cuts.iter().map(|cut| cut.kind(rank)).collect();
+            let mut strips: Vec<Option<Strip>> = vec![None; lines];
             for line in 0..lines {
-                let next = (line + 1) % lines;
-                let kinds = [cuts[line].kind(rank), cuts[next].kind(rank)];
-                if kinds == [None; 2] {
+                let four = [lines - 1, 0, 1, 2].map(|k| (line + k) % lines);
+                let [_, from, to, _] = four;
+                if [kinds[from], kinds[to]] == [None; 2] {
                     continue;
                 }
-                let from = match last.take() {
-                    Some((at, strip)) if at == line => strip,
-                    _ => self.strip(line, &cuts[line], rank, &bases),
-                };
-                let to = self.strip(next, &cuts[next], rank, &bases);
-                if kinds[0] == kinds[1] {
-                    self.fill(&from, &to, canvas);
-                } else {
-                    let mut before = from;
-                    for part in 1..PARTS {
-                        let share = part as f64 / PARTS as f64;
-                        let cut = cuts[line].between(&cuts[next], share);
-                        let strip = self.part([line, next], share, &cut, rank);
-                        self.fill(&before, &strip, canvas);
-                        before = strip;
+                let smooth = four.iter().all(|line| kinds[*line] == kinds[from]);
+                for at in if smooth { &four[..] } else { &four[1..3] } {
+                    if strips[*at].is_none() {
+                        strips[*at] = Some(self.strip(*at, &cuts[*at], rank, &bases));
                     }
-                    self.fill(&before, &to, canvas);
                 }
-                last = Some((next, to));
+                let strip = |line: usize| strips[line].as_ref().expect("made above");
+                if smooth {
+                    self.bend(four.map(strip), canvas);
+                } else {
+                    let cut = |s: f64| Cut::mixed(four.map(|line| &cuts[line]), cubic(s));
+                    let places = places(|s| cut(s).kind(rank));
+                    let between = |s: f64| self.part(four, cubic(s), &cut(s), rank);
+                    let parts: Vec<Strip> = places.into_iter().map(between).collect();
+                    let all: Vec<&Strip> =
+                        std::iter::once(strip(from)).chain(&parts).chain([strip(to)]).collect();
+                    for pair in all.windows(2) {
+                        self.fill(pair, canvas);
+                    }
+                }
+                strips[four[0]] = None;
             }
         }
     }
 
-    fn fill(&self, from: &Strip, to: &Strip, canvas: &mut Canvas) {
-        for (low, high) in from.corners.windows(2).zip(to.corners.windows(2)) {
-            canvas.cell([&low[0], &low[1], &high[1], &high[0]]);
+    /// Fills what lies between the second and the third of four strips that are bounded alike.
+    fn bend(&self, four: [&Strip; 4], canvas: &mut Canvas) {
+        let coarse = COARSE[self.image.order];
+        let parts: Vec<Strip> = (1..PIECES)
+            .map(|k| Strip::between(four, cubic(k as f64 / PIECES as f64), k % coarse > 0))
+            .collect();
+        let all: Vec<&Strip> = std::iter::once(four[1]).chain(&parts).chain([four[2]]).collect();
+        for first in (0..PIECES).step_by(coarse) {
+            self.fill(&all[first..=first + coarse], canvas);
+        }
+    }
+
+    /// Fills what lies between the first and the last of some strips; of those between them only the ends count.
+    fn fill(&self, strips: &[&Strip], canvas: &mut Canvas) {
+        let (from, to) = (strips[0], strips[strips.len() - 1]);
+        let between = &strips[1..strips.len() - 1];
+        let side = |k: usize| between.iter().map(move |strip| strip.ends()[k].place);
+        let last = from.corners.len() - 2;
+        for (k, (low, high)) in from.corners.windows(2).zip(to.corners.windows(2)).enumerate() {
+            let corners = [&low[0], &low[1], &high[1], &high[0]];
+            let (inner, outer) = (k == 0, k == last);
+            if between.is_empty() || !(inner || outer) {
+                canvas.cell(corners, std::iter::empty(), std::iter::empty());
+            } else {
+                let count = between.len();
+                canvas.cell(
+                    corners,
+                    side(1).take(if outer { count } else { 0 }),
+                    side(0).rev().take(if inner { count } else { 0 }),
+                );
+            }
         }
         if self.sketch.derivatives {
-            self.sketch.sweep(from, to, canvas);
+            for pair in strips.windows(2) {
+                self.sketch.sweep(pair[0], pair[1], canvas);
+            }
         }
     }
 
@@ -125,11 +235,11 @@ impl Painting<'_> {
         Strip { bounds, ray: [cos, sin], corners }
     }
 
-    /// The same between two lines, all along straight ways from the one to the other.
-    fn part(&self, lines: [usize; 2], share: f64, cut: &Cut, rank: usize) -> Strip {
+    /// The same between the second and the third of four lines.
+    fn part(&self, lines: [usize; 4], shares: [f64; 4], cut: &Cut, rank: usize) -> Strip {
         let (image, bounds) = (self.image, cut.left[rank]);
-        let mix = |a: f64, b: f64| a + share * (b - a);
-        let rho = |t: f64| mix(image.at(lines[0], t).rho, image.at(lines[1], t).rho);
+        let points = |t: f64| lines.map(|line| image.at(line, t));
+        let rho = |t: f64| points(t).iter().zip(shares).map(|(point, share)| share * point.rho).sum::<f64>();
         let [from, to] = bounds.map(|bound| {
             let (mut low, mut high) = (0.0, 1.0);
             if bound.rho <= cut.own[0].rho {
@@ -145,13 +255,12 @@ impl Painting<'_> {
             0.5 * (low + high)
         });
         let corners = self.rows.iter().map(|row| {
-            let t = from + (to - from) * row;
-            let [a, b] = lines.map(|line| self.sketch.corner(image, line, &image.at(line, t)));
-            a.between(&b, share)
+            let points = points(from + (to - from) * row);
+            let corners: [Corner; 4] =
+                std::array::from_fn(|k| self.sketch.corner(image, lines[k], &points[k]));
+            Corner::mixed(corners.each_ref(), shares)
         });
-        let rays = lines.map(|line| image.rays[line]);
-        let [x, y] = [0, 1].map(|k| mix(rays[0][k], rays[1][k]));
-        let length = x.hypot(y);
-        Strip { bounds, ray: [x / length, y / length], corners: corners.collect() }
+        let ray = mixed(lines.map(|line| [image.rays[line][0], image.rays[line][1]]), shares);
+        Strip { bounds, ray, corners: corners.collect() }
     }
 }

@@ -98,45 +98,52 @@ fn means_over_pixels() {
     }
 }
 
+/// The root mean square over pixels of what derivatives are off by, as a share of theirs.
+fn off(pixels: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (error, size) = pixels.fold((0.0, 0.0), |(error, size), (found, difference)| {
+        (error + (found - difference).powi(2), size + difference * difference)
+    });
+    f64::sqrt(error / size)
+}
+
 /// Derivatives of light without jumps against central differences of pixels sampled by 256² rays.
 #[test]
-fn derivatives_are_those_of_finer_pictures() {
+fn derivatives_are_those_of_many_rays() {
     let steps = [4e-3, 4e-3, 0.0, 0.0, 0.0, 0.0, 4e-3, 1e-2, 1e-2, 4e-3];
     let (p, power, opaque) = CASES[0];
     let painter = Painter::new(Projection::Angular, opaque, Fineness::default());
     let canvas = painter.draw(&setting(&p, power), true).unwrap();
     for k in [0, 1, 6, 7, 8, 9] {
-        let (mut error, mut size) = (0.0, 0.0);
-        for pixel in (3..SIZE * SIZE).step_by(31) {
+        let relative = off((3..SIZE * SIZE).step_by(31).map(|pixel| {
             let moved = |sign: f64| {
                 let mut p = p;
                 p[k] += sign * steps[k];
                 mean(&p, power, opaque, pixel, 256)
             };
-            let difference = (moved(1.0) - moved(-1.0)) / (2.0 * steps[k]);
-            let found = canvas.pixels()[pixel][1 + k];
-            error += (found - difference).powi(2);
-            size += difference * difference;
-        }
-        let relative = f64::sqrt(error / size);
+            (canvas.pixels()[pixel][1 + k], (moved(1.0) - moved(-1.0)) / (2.0 * steps[k]))
+        }));
         println!("{k}: {relative:.1e}");
-        assert!(relative < 1.5e-3, "{k}: {relative}");
+        assert!(relative < 1e-3, "{p:?} {k}: {relative}");
     }
 }
 
-/// Derivatives of light that ends at edges against central differences of pictures whose lines lie four times closer: an edge
-/// is too sharp for samples.
+/// All derivatives against central differences of pictures whose lines and rows lie four times closer: edges are too sharp for samples.
 #[test]
-fn edges_move() {
-    let steps = [1e-3, 1e-3, 1e-4, 1e-3, 1e-2, 1e-3, 1e-3, 4e-3, 4e-3, 1e-3];
-    for (p, power, opaque) in [CASES[3], CASES[4], CASES[5]] {
+fn derivatives_are_those_of_finer_pictures() {
+    let steps = [1e-4, 1e-4, 1e-5, 1e-4, 1e-3, 1e-4, 1e-4, 4e-4, 4e-4, 1e-4];
+    for (p, power, opaque) in [CASES[3], CASES[4], CASES[5], CASES[0], CASES[1], CASES[2]] {
         let painter = Painter::new(Projection::Angular, opaque, Fineness::default());
         let finer = Fineness { lines: 1280, step: 0.0075, bend: 0.015, ..Fineness::default() };
         let finer = Painter::new(Projection::Angular, opaque, finer);
         let canvas = painter.draw(&setting(&p, power), true).unwrap();
         for k in 0..10 {
-            // Face-on there is next to nothing that turns.
-            if (k == 5 && !power) || (k == 9 && p[1] < 0.1) {
+            // Face-on there is next to nothing that turns, and far away no edge.
+            if (k == 5 && !power) || (k == 9 && p[1] < 0.1) || (k == 4 && p[4] > 100.0) {
+                continue;
+            }
+            // Nearly edge-on next to nothing changes with the distance, or behind the inner edge: differences are too coarse.
+            let side = p[1] > 1.4 && p[1] < 1.6;
+            if side && (k == 2 || k == 3) {
                 continue;
             }
             // The last stable orbit moves fast near |a| = 1.
@@ -147,15 +154,24 @@ fn edges_move() {
                 finer.draw(&setting(&p, power), false).unwrap()
             };
             let (high, low) = (moved(1.0), moved(-1.0));
-            let (mut error, mut size) = (0.0, 0.0);
-            for pixel in 0..SIZE * SIZE {
+            let relative = off((0..SIZE * SIZE).map(|pixel| {
                 let difference = (high.pixels()[pixel][0] - low.pixels()[pixel][0]) / (2.0 * step);
-                error += (canvas.pixels()[pixel][1 + k] - difference).powi(2);
-                size += difference * difference;
-            }
-            let relative = f64::sqrt(error / size);
-            println!("{opaque} {k}: {relative:.1e}");
-            assert!(relative < 5e-3, "{p:?} {k}: {relative}");
+                (canvas.pixels()[pixel][1 + k], difference)
+            }));
+            // Of rings thinner than any step between lines, single pixels miss it: 1.1e-3 at 60°, 1.6e-3 at 85°; 2.3e-3 of what lies behind
+            // the inner edge of a disk that is dark there.
+            let thin = !power && opaque && p[0] > 0.8 && p[0] < 0.99;
+            let least = if !thin {
+                1e-3
+            } else if k == 3 {
+                2.5e-3
+            } else if side {
+                1.7e-3
+            } else {
+                1.2e-3
+            };
+            println!("{} {k}: {relative:.1e}", p[0]);
+            assert!(relative < least, "{p:?} {k}: {relative}");
         }
     }
 }
