@@ -110,45 +110,33 @@ impl Screen {
         }
     }
 
-    /// The inverse of `direction`.
-    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        if self.u == 0.0 {
-            return [x, y];
-        }
+    /// The inverse of `direction`, and there ∂direction/∂(x, y), as rows, and ∂direction/∂u.
+    fn place(&self, [x, y]: [f64; 2]) -> ([f64; 2], [[f64; 2]; 3]) {
         let u = self.u;
+        if u == 0.0 {
+            return ([x, y], [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]);
+        }
         match self.projection {
             Projection::Angular => {
-                let up = (y * u).clamp(-1.0, 1.0).asin();
-                let right = (x * u / up.cos()).clamp(-1.0, 1.0).asin();
-                [right / u, up / u]
+                let cos = |sin: f64| (1.0 - sin * sin).sqrt();
+                let sin_y = (y * u).clamp(-1.0, 1.0);
+                let cos_y = cos(sin_y);
+                let sin_x = if cos_y > 0.0 { (x * u / cos_y).clamp(-1.0, 1.0) } else { 0.0 };
+                let cos_x = cos(sin_x);
+                let [x, y] = [sin_x.asin() / u, sin_y.asin() / u];
+                let right = x * cos_x * cos_y - y * sin_x * sin_y - sin_x * cos_y / u;
+                let up = y * cos_y - sin_y / u;
+                ([x, y], [[cos_x * cos_y, -sin_x * sin_y], [0.0, cos_y], [right / u, up / u]])
             }
             Projection::Pinhole => {
                 let forward = (1.0 - (x * x + y * y) * u * u).max(1e-6).sqrt();
-                [x / forward, y / forward]
-            }
-        }
-    }
-
-    /// ∂direction/∂(x, y), as rows, and ∂direction/∂u.
-    fn slopes(&self, [x, y]: [f64; 2]) -> [[f64; 2]; 3] {
-        let u = self.u;
-        if u == 0.0 {
-            return [[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]];
-        }
-        match self.projection {
-            Projection::Angular => {
-                let ((sin_x, cos_x), (sin_y, cos_y)) = ((x * u).sin_cos(), (y * u).sin_cos());
-                let right = x * cos_x * cos_y - y * sin_x * sin_y - sin_x * cos_y / u;
-                let up = y * cos_y - sin_y / u;
-                [[cos_x * cos_y, -sin_x * sin_y], [0.0, cos_y], [right / u, up / u]]
-            }
-            Projection::Pinhole => {
+                let [x, y] = [x / forward, y / forward];
                 let square = x * x + y * y;
                 let length = (square * u * u + 1.0).sqrt();
                 let cube = length.powi(-3);
                 let rate = -square * u * cube;
                 let [xx, xy, yy] = [x * x * u * u * cube, x * y * u * u * cube, y * y * u * u * cube];
-                [[1.0 / length - xx, -xy], [-xy, 1.0 / length - yy], [x * rate, y * rate]]
+                ([x, y], [[1.0 / length - xx, -xy], [-xy, 1.0 / length - yy], [x * rate, y * rate]])
             }
         }
     }
@@ -159,12 +147,11 @@ impl Screen {
         let Frame { size, scale, center, .. } = self.frame;
         let along = (alpha - self.offset.value) * self.stretch[0].value;
         let up = self.side * beta * self.stretch[1].value;
-        let place = self.place([cos * along + sin * up, cos * up - sin * along]);
+        let (place, [right, upward, outward]) = self.place([cos * along + sin * up, cos * up - sin * along]);
         let pixel = [
             0.5 * size[0] as f64 + center[0] + place[0] / scale,
             0.5 * size[1] as f64 - center[1] - place[1] / scale,
         ];
-        let [right, upward, outward] = self.slopes(place);
         // What a change of the direction, times r, does to α and β at a fixed pixel.
         let impact = |[x, y]: [f64; 2]| {
             let (along, up) = (cos * x - sin * y, sin * x + cos * y);

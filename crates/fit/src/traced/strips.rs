@@ -133,6 +133,31 @@ fn places<K: PartialEq>(kind: impl Fn(f64) -> K) -> Vec<f64> {
     places[1..places.len() - 1].to_vec()
 }
 
+/// Where a function that rises from one value at 0 to another at 1 is 0, by false positions with the end that stays at half its value
+/// (the Illinois method).
+fn root([mut below, mut above]: [f64; 2], at: impl Fn(f64) -> f64) -> f64 {
+    let [mut low, mut high] = [0.0, 1.0];
+    let close = 1e-13 * (above - below);
+    let mut stayed = 0;
+    for _ in 0..60 {
+        let t = (low * above - high * below) / (above - below);
+        let value = at(t);
+        if value.abs() < close {
+            return t;
+        }
+        if value < 0.0 {
+            (low, below) = (t, value);
+            above *= if stayed == 1 { 0.5 } else { 1.0 };
+            stayed = 1;
+        } else {
+            (high, above) = (t, value);
+            below *= if stayed == -1 { 0.5 } else { 1.0 };
+            stayed = -1;
+        }
+    }
+    0.5 * (low + high)
+}
+
 /// Some of four directions.
 fn mixed(rays: [[f64; 2]; 4], shares: [f64; 4]) -> [f64; 2] {
     [0, 1].map(|k| rays.iter().zip(shares).map(|(ray, share)| share * ray[k]).sum())
@@ -241,18 +266,14 @@ impl Painting<'_> {
         let points = |t: f64| lines.map(|line| image.at(line, t));
         let rho = |t: f64| points(t).iter().zip(shares).map(|(point, share)| share * point.rho).sum::<f64>();
         let [from, to] = bounds.map(|bound| {
-            let (mut low, mut high) = (0.0, 1.0);
-            if bound.rho <= cut.own[0].rho {
-                return low;
+            let ends = [cut.own[0].rho - bound.rho, cut.own[1].rho - bound.rho];
+            if ends[0] >= 0.0 {
+                return 0.0;
             }
-            if bound.rho >= cut.own[1].rho {
-                return high;
+            if ends[1] <= 0.0 {
+                return 1.0;
             }
-            for _ in 0..40 {
-                let middle = 0.5 * (low + high);
-                if rho(middle) < bound.rho { low = middle } else { high = middle }
-            }
-            0.5 * (low + high)
+            root(ends, |t| rho(t) - bound.rho)
         });
         let corners = self.rows.iter().map(|row| {
             let points = points(from + (to - from) * row);
@@ -262,5 +283,47 @@ impl Painting<'_> {
         });
         let ray = mixed(lines.map(|line| [image.rays[line][0], image.rays[line][1]]), shares);
         Strip { bounds, ray, corners: corners.collect() }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn roots() {
+        for power in [0.3, 1.0, 7.0] {
+            let at = |t: f64| t.powf(power) - 0.2;
+            assert!((root([-0.2, 0.8], at) - 0.2_f64.powf(1.0 / power)).abs() < 1e-12);
+        }
+    }
+
+    /// Where one edge takes another's place twice within a piece, and pieces.
+    #[test]
+    fn edges_change() {
+        let kind = |s: f64| {
+            if s < 0.3 {
+                0
+            } else if s < 0.4 {
+                1
+            } else {
+                2
+            }
+        };
+        let found = places(kind);
+        let expected = [0.25, 0.3, 0.3, 0.4, 0.4, 0.5, 0.75];
+        assert_eq!(found.len(), expected.len());
+        assert!(found.iter().zip(expected).all(|(s, other)| (s - other).abs() < 1e-6), "{found:?}");
+        assert_eq!(places(|_| 0), [0.25, 0.5, 0.75]);
+    }
+
+    /// A cubic is followed exactly.
+    #[test]
+    fn cubics() {
+        let at = |s: f64| 1.0 + s * (2.0 - s * (0.5 - 0.3 * s));
+        for s in [0.0, 0.1, 0.7, 1.0] {
+            let found: f64 = cubic(s).iter().zip([-1.0, 0.0, 1.0, 2.0]).map(|(share, s)| share * at(s)).sum();
+            assert!((found - at(s)).abs() < 1e-14);
+        }
     }
 }
