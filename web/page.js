@@ -1,6 +1,7 @@
 // The page: a picture, what is set, and what is seen.
 
 import { hands } from "./hands.js";
+import { showKey } from "./key.js";
 import { Panel, make } from "./panel.js";
 import { Observation } from "./observation.js";
 import { Picture } from "./picture.js";
@@ -71,8 +72,12 @@ const picture = new Picture(canvas, element("lines", HTMLCanvasElement), {
       display();
       // What stands beside it depends on the scene.
       if (first) compare(wish(false));
+    } else if (kind === "key") {
+      showKey(element("key", HTMLElement), content.key);
     } else if (kind === "ray") {
       showRay(ray, content, size(), leave);
+    } else if (kind === "drawing") {
+      line.textContent = `${line.textContent?.split(" · finer")[0]} · finer: ${Math.floor((100 * content.done) / content.total)} %`;
     } else if (kind === "progress") {
       saver.progress(content);
     } else if (kind === "unsaved") {
@@ -198,6 +203,8 @@ function compare(wished) {
   const how = BESIDE[set["page.compare"]];
   const [beside, split, wrong] = ["beside", "split", "other-faults"].map((id) => element(id, HTMLElement));
   beside.hidden = split.hidden = !how;
+  const choices = SETTINGS.find(({ key }) => key === "page.compare")?.choices ?? [];
+  element("beside-name", HTMLElement).textContent = choices.find(([choice]) => choice === set["page.compare"])?.[1] ?? "";
   if (!how) {
     other?.close();
     other = null;

@@ -39,6 +39,8 @@ export class Panel {
     this.rows = [];
     /** @type {Map<string, HTMLFieldSetElement>} */
     this.groups = new Map();
+    this.none = make("p", { className: "help", textContent: "No setting is called that.", hidden: true });
+    this.none.setAttribute("role", "status");
     this.wanted = "";
     /** @type {Scene} */
     this.scene = {};
@@ -54,6 +56,7 @@ export class Panel {
       this.rows.push(row);
       group.append(row.element);
     }
+    form.append(this.none);
     form.addEventListener("submit", (event) => event.preventDefault());
   }
 
@@ -153,5 +156,6 @@ export class Panel {
     for (const group of this.groups.values()) {
       group.hidden = [...group.querySelectorAll(".setting")].every((row) => /** @type {HTMLElement} */ (row).hidden);
     }
+    this.none.hidden = [...this.groups.values()].some((group) => !group.hidden);
   }
 }

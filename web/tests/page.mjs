@@ -24,6 +24,32 @@ async function still() {
   assert.equal(await page.isVisible("#faults"), false, await page.textContent("#faults"));
 }
 
+/** A blurred ring of 12 pixels across, brighter on one side, with noise of 3 % of the brightest: 28 × 28 pixels, the lowest row first. */
+function ring() {
+  const steps = Array.from({ length: 180 }, (_, k) => (2 * Math.PI * k) / 180);
+  const clean = Array.from({ length: 28 * 28 }, (_, k) => {
+    const [x, y] = [(k % 28) - 13.5, Math.floor(k / 28) - 13.5];
+    return steps.reduce((sum, angle) => {
+      const [dx, dy] = [x - 6 * Math.cos(angle), y - 6 * Math.sin(angle)];
+      return sum + (1 + 0.4 * Math.cos(angle - 2)) * Math.exp(-(dx * dx + dy * dy) / 8);
+    }, 0);
+  });
+  const brightest = Math.max(...clean);
+  let state = 1;
+  const chance = () => ((state = (Math.imul(state, 1664525) + 1013904223) >>> 0) + 0.5) / 2 ** 32;
+  const normal = () => Math.sqrt(-2 * Math.log(chance())) * Math.cos(2 * Math.PI * chance());
+  return clean.map((value) => value + 0.03 * brightest * normal());
+}
+
+/** A FITS file of a square picture. @param {number} size @param {number[]} values */
+function fits(size, values) {
+  const keys = { SIMPLE: "T", BITPIX: "-64", NAXIS: "2", NAXIS1: `${size}`, NAXIS2: `${size}` };
+  const cards = [...Object.entries(keys).map(([key, value]) => `${key.padEnd(8)}= ${value.padStart(20)}`), "END"];
+  const data = Buffer.alloc(Math.ceil((8 * values.length) / 2880) * 2880);
+  values.forEach((value, k) => data.writeDoubleBE(value, 8 * k));
+  return Buffer.concat([Buffer.from(cards.map((card) => card.padEnd(80)).join("").padEnd(2880)), data]);
+}
+
 /** The picture's bytes. */
 const pixels = () => page.evaluate(() => document.querySelector("#picture").toDataURL());
 const hash = () => page.evaluate(() => decodeURIComponent(location.hash));
@@ -107,7 +133,19 @@ await still();
 // Search.
 await page.fill("#search", "doppler");
 assert.equal(await page.locator(".setting:visible").count(), 1);
+await page.fill("#search", "zebra");
+assert.ok(await page.getByText("No setting is called that.").isVisible());
 await page.fill("#search", "");
+
+// A data layer has a scale; light has none.
+await page.locator("[data-key='camera.display.layer'] select").selectOption({ index: 1 });
+await page.waitForSelector("#key:not([hidden])");
+await still();
+assert.ok((await page.locator("#key .marks span").count()) >= 2, "marks along the colours");
+await page.screenshot({ path: path.join(folder, "layer.png") });
+await page.click("#undo");
+await still();
+assert.equal(await page.isVisible("#key"), false);
 
 // Lines, and the picture beside it.
 await page.getByLabel("Edge of the shadow", { exact: true }).check();
@@ -177,14 +215,11 @@ for (const format of ["png", "exr"]) {
 }
 
 // An observation: measured and fitted, shown under its fit, and taken as a scene.
-execFileSync(program, ["render", "-o", "seen.fits", ...[
-  "disk.model=power-law", "disk.outer=12", "observer.distance=100", "observer.inclination=30", "screen.field_of_view=14",
-  "sky.kind=black", "render.width=24", "render.height=24", "render.samples=16",
-].flatMap((set) => ["--set", set])], { cwd: folder });
+fs.writeFileSync(path.join(folder, "seen.fits"), fits(28, ring()));
 await page.click("#observe");
 await page.selectOption("#observed-model", "ring");
 await page.setInputFiles("#observed-file", path.join(folder, "seen.fits"));
-await page.waitForFunction(() => /converged/i.test(document.querySelector("#observer output").textContent), null, { timeout: 180000 });
+await page.waitForFunction(() => /^Converged/.test(document.querySelector("#observer output").textContent), null, { timeout: 180000 });
 assert.equal(await page.locator(".pictures figure").count(), 2);
 const [under, fit] = [".over canvas:not(.fit)", ".over .fit"].map((part) => page.locator(`[data-name=observed] ${part}`));
 assert.deepEqual(await fit.boundingBox(), await under.boundingBox(), "the fit lies over the picture");
@@ -192,7 +227,7 @@ const covered = () => fit.evaluate((canvas) => getComputedStyle(canvas).clipPath
 assert.match(await covered(), /50%/);
 await page.fill(".pictures input", "20");
 assert.match(await covered(), /20%/);
-assert.match(await page.textContent(".measured"), /24 × 24 pixels/);
+assert.match(await page.textContent(".measured"), /28 × 28 pixels/);
 assert.match(await page.textContent(".fitted"), /diameter/);
 fs.writeFileSync(path.join(folder, "nothing.png"), "this is no picture");
 await page.setInputFiles("#observed-file", path.join(folder, "nothing.png"));

@@ -121,7 +121,8 @@ pub fn save(
         write_atomically(path, |file| writeln_all(file, &text))
             .map_err(|e| Failure::Failed(e.to_string()))?;
     }
-    Ok(())
+    let names: Vec<String> = paths.iter().map(|path| path.display().to_string()).collect();
+    crate::print(&format!("Saved {}", names.join(", ")))
 }
 
 fn writeln_all(file: &mut dyn std::io::Write, text: &str) -> std::io::Result<()> {

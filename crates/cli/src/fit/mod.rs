@@ -15,6 +15,7 @@ use kerrscope_fit::question::Question;
 use kerrscope_fit::request::{Request, unknown_model};
 use kerrscope_fit::task::{Report, Task, TaskError, Watch};
 use kerrscope_fit::traced::Projection;
+use tracing::info;
 
 use self::kept::kept;
 use self::output::{files, table};
@@ -148,7 +149,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> Result<(), Failure> {
     let bar = progress::message(quiet);
     let flag = progress::stop_flag();
     let watch = Watch {
-        progress: &|text| bar.set_message(text.to_owned()),
+        progress: &|text| {
+            info!("{text}");
+            bar.set_message(text.to_owned());
+        },
         interim: None,
         cancelled: &|| flag.load(Ordering::Relaxed),
         keeper: kept.as_ref().map(|kept| kept as &dyn Keeper),

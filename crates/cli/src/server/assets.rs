@@ -41,6 +41,7 @@ pub static ALL: &[Asset] = &[
     asset!("/readouts.js", "readouts.js", SCRIPT),
     asset!("/picture.js", "picture.js", SCRIPT),
     asset!("/lines.js", "lines.js", SCRIPT),
+    asset!("/key.js", "key.js", SCRIPT),
     asset!("/save.js", "save.js", SCRIPT),
     asset!("/ray.js", "ray.js", SCRIPT),
     asset!("/observation.js", "observation.js", SCRIPT),

@@ -1,6 +1,7 @@
 //! What is said of a scene beside its picture.
 
 use kerrscope::camera::Camera;
+use kerrscope::display::chart;
 use kerrscope::scene::{Faults, Scene};
 use kerrscope::spacetime::kerr::{CriticalCurve, Orbits};
 use serde::Serialize;
@@ -20,6 +21,8 @@ pub enum Notice {
     Fault(String),
     /// How far a file is.
     Progress(Progress),
+    /// How far a picture is that takes its time.
+    Drawing(Progress),
     /// Why there is no file.
     Unsaved(FaultList),
     /// Lines over a picture.
@@ -28,6 +31,13 @@ pub enum Notice {
         generation: u32,
         /// The lines.
         lines: Vec<Lines>,
+    },
+    /// What the colours of a data layer mean; none for light.
+    Key {
+        /// The wish that it answers.
+        generation: u32,
+        /// What they mean.
+        key: Option<Key>,
     },
     /// A ray.
     Ray {
@@ -42,7 +52,31 @@ pub enum Notice {
     },
 }
 
-/// How far a file is, in rays.
+/// What colours mean: heading, colours along a bar with marks, and boxes of one colour each.
+#[derive(Debug, Serialize)]
+pub struct Key {
+    heading: String,
+    bar: Vec<String>,
+    marks: Vec<(f64, String)>,
+    boxes: Vec<(String, String)>,
+}
+
+impl From<chart::Key> for Key {
+    fn from(key: chart::Key) -> Self {
+        let css = |color: [f64; 3]| {
+            let [red, green, blue] = color.map(|c| (255.0 * c.clamp(0.0, 1.0)).round());
+            format!("rgb({red} {green} {blue})")
+        };
+        Self {
+            heading: key.heading,
+            bar: key.bar.into_iter().map(css).collect(),
+            marks: key.marks,
+            boxes: key.boxes.into_iter().map(|(color, name)| (css(color), name)).collect(),
+        }
+    }
+}
+
+/// How far a file or a picture is, in rays.
 #[derive(Debug, Serialize)]
 pub struct Progress {
     pub generation: u32,

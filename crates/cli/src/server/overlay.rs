@@ -37,8 +37,17 @@ pub struct Lines {
 /// Cells along the longer edge.
 const CELLS: f64 = 96.0;
 
+/// Cells with rough edges are split into so many by so many, so often, if there are not more of them.
+const FINER: usize = 4;
+const LEVELS: usize = 2;
+const MOST_SPLIT: usize = 4000;
+
+/// Along an edge of a cell, 1/r and shifts that change by more are rough, and azimuths, radians.
+const ROUGH: f64 = 0.05;
+const TURNED: f64 = 0.2;
+
 /// How often a place is halved.
-const HALVINGS: usize = 7;
+const HALVINGS: usize = 6;
 
 /// Rays followed together.
 const BATCH: usize = 512;
@@ -59,6 +68,22 @@ struct Seen {
 
 const NOTHING: Seen =
     Seen { captured: false, crossings: 0, inverse_radius: f64::NAN, azimuth: f64::NAN, shift: f64::NAN };
+
+impl Seen {
+    /// Whether lines between the two may be lost or bent.
+    fn differs(&self, other: &Self) -> bool {
+        // A difference of what is not a number is none: one of both without a number differs by its crossings.
+        let far = |a: f64, b: f64, most: f64| (a - b).abs() > most;
+        let turned =
+            (self.azimuth - other.azimuth).sin().abs().max(1.0 - (self.azimuth - other.azimuth).cos());
+        self.captured != other.captured
+            || self.crossings != other.crossings
+            || self.inverse_radius.is_nan() != other.inverse_radius.is_nan()
+            || far(self.inverse_radius, other.inverse_radius, ROUGH)
+            || far(self.shift, other.shift, ROUGH)
+            || turned > TURNED
+    }
+}
 
 /// What looks along rays of a scene.
 struct Look {
@@ -109,42 +134,68 @@ impl Look {
     }
 }
 
-/// The corners of a grid over a picture.
-struct Grid {
-    columns: usize,
-    rows: usize,
-    size: [f64; 2],
+/// Cells over a picture: those of a grid, and smaller ones where rays next to each other differ much.
+struct Mesh {
+    places: Vec<[f64; 2]>,
     seen: Vec<Seen>,
+    /// The corners of each cell, around it.
+    cells: Vec<[usize; 4]>,
 }
 
-impl Grid {
+impl Mesh {
     fn new(look: &Look, size: [f64; 2]) -> Self {
         let cell = size[0].max(size[1]) / CELLS;
-        let [columns, rows] = size.map(|edge| (edge / cell).ceil().max(1.0) as usize);
-        let mut grid = Self { columns, rows, size, seen: Vec::new() };
-        let corners: Vec<[f64; 2]> =
-            (0..(columns + 1) * (rows + 1)).map(|corner| grid.place(corner)).collect();
-        grid.seen = look.along(&corners);
-        grid
+        let counts = size.map(|edge| (edge / cell).ceil().max(1.0) as usize);
+        let mut mesh = Self { places: Vec::new(), seen: Vec::new(), cells: Vec::new() };
+        mesh.grid([[0.0; 2], size], counts);
+        mesh.seen = look.along(&mesh.places);
+        for _ in 0..LEVELS {
+            mesh.refine(look);
+        }
+        mesh
     }
 
-    fn place(&self, corner: usize) -> [f64; 2] {
-        let across = corner % (self.columns + 1);
-        let down = corner / (self.columns + 1);
-        [across as f64 / self.columns as f64 * self.size[0], down as f64 / self.rows as f64 * self.size[1]]
+    /// Adds the cells of a grid between two opposite corners.
+    fn grid(&mut self, [from, to]: [[f64; 2]; 2], [columns, rows]: [usize; 2]) {
+        let first = self.places.len();
+        for corner in 0..(columns + 1) * (rows + 1) {
+            let shares = [
+                (corner % (columns + 1)) as f64 / columns as f64,
+                (corner / (columns + 1)) as f64 / rows as f64,
+            ];
+            self.places.push([0, 1].map(|k| from[k] + shares[k] * (to[k] - from[k])));
+        }
+        for cell in 0..columns * rows {
+            let corner = first + cell / columns * (columns + 1) + cell % columns;
+            self.cells.push([corner, corner + 1, corner + columns + 2, corner + columns + 1]);
+        }
     }
 
-    /// The corners of a cell, around it.
-    fn cell(&self, cell: usize) -> [usize; 4] {
-        let corner = cell / self.columns * (self.columns + 1) + cell % self.columns;
-        [corner, corner + 1, corner + self.columns + 2, corner + self.columns + 1]
+    /// Splits cells whose corners differ by more than lines can be drawn through.
+    fn refine(&mut self, look: &Look) {
+        let (rough, smooth): (Vec<_>, Vec<_>) = self
+            .cells
+            .iter()
+            .partition(|cell| (0..4).any(|k| self.seen[cell[k]].differs(&self.seen[cell[(k + 1) % 4]])));
+        if rough.len() > MOST_SPLIT {
+            return;
+        }
+        self.cells = smooth;
+        let known = self.places.len();
+        for [from, _, to, _] in rough {
+            self.grid([self.places[from], self.places[to]], [FINER; 2]);
+        }
+        self.seen.extend(look.along(&self.places[known..]));
     }
 
-    /// Pieces through cells, between places on those of their edges for which there is one.
+    /// Pieces through cells, between places on those of their edges for which there is one, as shares of the picture.
     fn join(&self, on_edge: impl Fn(usize, usize) -> Option<[f64; 2]>) -> Vec<[f32; 4]> {
+        let size = self
+            .cells
+            .iter()
+            .fold([0.0_f64; 2], |most, cell| [0, 1].map(|k| most[k].max(self.places[cell[2]][k])));
         let mut pieces = Vec::new();
-        for cell in 0..self.columns * self.rows {
-            let corners = self.cell(cell);
+        for corners in &self.cells {
             let places: Vec<[f64; 2]> = (0..4)
                 .filter_map(|k| {
                     let (a, b) = (corners[k], corners[(k + 1) % 4]);
@@ -152,29 +203,28 @@ impl Grid {
                 })
                 .collect();
             for pair in places.chunks_exact(2) {
-                let share = |place: [f64; 2], k: usize| (place[k] / self.size[k]) as f32;
+                let share = |place: [f64; 2], k: usize| (place[k] / size[k]) as f32;
                 pieces.push([share(pair[0], 0), share(pair[0], 1), share(pair[1], 0), share(pair[1], 1)]);
             }
         }
         pieces
     }
 
-    /// The edges of the grid, each once.
-    fn edges(&self) -> impl Iterator<Item = (usize, usize)> {
-        let (columns, rows) = (self.columns, self.rows);
-        (0..(columns + 1) * (rows + 1)).flat_map(move |corner| {
-            let right = (corner % (columns + 1) < columns).then_some((corner, corner + 1));
-            let below = (corner / (columns + 1) < rows).then_some((corner, corner + columns + 1));
-            right.into_iter().chain(below)
-        })
+    /// The edges of cells, each once, in the order of their corners.
+    fn edges(&self) -> Vec<(usize, usize)> {
+        let sides = self.cells.iter().flat_map(|cell| (0..4).map(|k| (cell[k], cell[(k + 1) % 4])));
+        let mut edges: Vec<(usize, usize)> = sides.map(|(a, b)| (a.min(b), a.max(b))).collect();
+        edges.sort_unstable();
+        edges.dedup();
+        edges
     }
 
     /// Where a property of rays changes.
     fn boundary(&self, look: &Look, has: impl Fn(&Seen) -> bool) -> Vec<[f32; 4]> {
-        let edges: Vec<(usize, usize)> =
-            self.edges().filter(|&(a, b)| has(&self.seen[a]) != has(&self.seen[b])).collect();
+        let mut edges = self.edges();
+        edges.retain(|&(a, b)| has(&self.seen[a]) != has(&self.seen[b]));
         let mut spans: Vec<[[f64; 2]; 2]> =
-            edges.iter().map(|&(a, b)| [self.place(a), self.place(b)]).collect();
+            edges.iter().map(|&(a, b)| [self.places[a], self.places[b]]).collect();
         let middle = |[a, b]: &[[f64; 2]; 2]| [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         for _ in 0..HALVINGS {
             let middles: Vec<[f64; 2]> = spans.iter().map(middle).collect();
@@ -184,10 +234,7 @@ impl Grid {
                 span[usize::from(!same)] = middle;
             }
         }
-        self.join(|a, b| {
-            // Edges are in the order of their first corners, right before below.
-            edges.binary_search(&(a, b)).ok().map(|place| middle(&spans[place]))
-        })
+        self.join(|a, b| edges.binary_search(&(a, b)).ok().map(|place| middle(&spans[place])))
     }
 
     /// Where a number is 0 that changes smoothly from ray to ray, but not by more than `most` along an edge.
@@ -198,7 +245,7 @@ impl Grid {
             let between = (low < 0.0) != (high < 0.0) && (high - low).abs() < most;
             between.then(|| {
                 let share = low / (low - high);
-                let [from, to] = [a, b].map(|corner| self.place(corner));
+                let [from, to] = [a, b].map(|corner| self.places[corner]);
                 [from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])]
             })
         })
@@ -211,7 +258,7 @@ pub fn lines(scene: &Scene, kinds: &[Kind]) -> Vec<Lines> {
     let spin = scene.spacetime.spin();
     let matter = spin.map(|spin| Circular::kerr(spin, Sense::Prograde));
     let look = Look { camera, tracer: tracer(scene, Level::best()), spin, matter };
-    let grid = Grid::new(&look, [scene.render.width, scene.render.height].map(f64::from));
+    let mesh = Mesh::new(&look, [scene.render.width, scene.render.height].map(f64::from));
     let mut known: Vec<Kind> = Vec::new();
     for kind in kinds {
         if !known.contains(kind) {
@@ -219,20 +266,20 @@ pub fn lines(scene: &Scene, kinds: &[Kind]) -> Vec<Lines> {
         }
     }
     let of = |kind: Kind| match kind {
-        Kind::Critical => grid.boundary(&look, |seen| seen.captured),
+        Kind::Critical => mesh.boundary(&look, |seen| seen.captured),
         // The edges of higher orders are closer to each other than cells are wide.
         Kind::Orders => {
-            (1..=2).flat_map(|order| grid.boundary(&look, move |seen| seen.crossings >= order)).collect()
+            (1..=2).flat_map(|order| mesh.boundary(&look, move |seen| seen.crossings >= order)).collect()
         }
         Kind::Equator => {
             let circles =
-                CIRCLES.iter().flat_map(|radius| grid.zero(0.2, |seen| seen.inverse_radius - radius.recip()));
+                CIRCLES.iter().flat_map(|radius| mesh.zero(0.3, |seen| seen.inverse_radius - radius.recip()));
             // Zero at every 30°.
-            let spokes = grid.zero(1.0, |seen| (6.0 * seen.azimuth).sin());
+            let spokes = mesh.zero(1.0, |seen| (6.0 * seen.azimuth).sin());
             circles.chain(spokes).collect()
         }
         Kind::Shift => (1..=9)
-            .flat_map(|tenths| grid.zero(0.2, move |seen| seen.shift - 0.2 * f64::from(tenths)))
+            .flat_map(|tenths| mesh.zero(0.3, move |seen| seen.shift - 0.2 * f64::from(tenths)))
             .collect(),
     };
     known.into_iter().map(|kind| Lines { kind, pieces: of(kind) }).collect()
@@ -258,7 +305,7 @@ mod tests {
             .collect();
         assert!(found.len() > 100, "{}", found.len());
         let curve = CriticalCurve::new(0.9, 60f64.to_radians()).points(4000);
-        // A cell is 1/6 M; halved seven times, and half of that to either side.
+        // A cell is 1/6 M, or a 16th of that; halved six times, and half of that to either side.
         let off =
             |p: &[f64; 2]| curve.iter().map(|q| (p[0] - q[0]).hypot(p[1] - q[1])).fold(f64::MAX, f64::min);
         let worst = found.iter().map(off).fold(0.0, f64::max);

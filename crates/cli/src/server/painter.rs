@@ -2,7 +2,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use kerrscope::render::{Stage, Watch, draw};
@@ -14,7 +14,7 @@ use super::House;
 use super::asked::View;
 use super::client::Sent;
 use super::desk::Desk;
-use super::facts::{Facts, Notice};
+use super::facts::{Facts, Notice, Progress};
 use super::frame::{self, Label};
 use super::overlay::{self, Kind};
 use super::pace::{Pace, divided};
@@ -24,6 +24,9 @@ const OVERDUE: Duration = Duration::from_millis(200);
 
 /// If the last picture is expected to take longer than this, a finer one than that in motion is shown before.
 const LONG: f64 = 1.0;
+
+/// How often it is told how far a picture is, milliseconds.
+const TOLD: u64 = 500;
 
 /// Why no more is drawn.
 enum End {
@@ -133,7 +136,18 @@ impl Painter {
         }
         let ready = Instant::now();
         let stop = AtomicBool::new(desk.is_closed());
-        let look = |_| {
+        let total = stage.rays();
+        let (done, told) = (AtomicU64::new(0), AtomicU64::new(0));
+        let look = |rays| {
+            let done = done.fetch_add(rays, Ordering::Relaxed) + rays;
+            let waited = ready.elapsed().as_millis() as u64;
+            let before = told.load(Ordering::Relaxed);
+            let due = !hurried && waited >= before + TOLD;
+            if due && told.compare_exchange(before, waited, Ordering::Relaxed, Ordering::Relaxed).is_ok() {
+                let progress = Progress { generation: view.generation, done, total };
+                // Where the client is slow, this is not what it has to hear.
+                let _ = self.send.try_send(Sent::Text(Notice::Drawing(progress).json()));
+            }
             let out_of_date = desk.has_newer() && (!hurried || ready.elapsed() > OVERDUE || desk.is_closed());
             if out_of_date {
                 stop.store(true, Ordering::Relaxed);
@@ -144,7 +158,11 @@ impl Painter {
         let film = house.pool.install(|| draw(&stage, &watch)).map_err(|_| End::News)?;
         let rays = stage.rays() as f64;
         let drawn = ready.elapsed().as_secs_f64();
-        self.pace.learn(kind, rays, drawn);
+        if last {
+            let key =
+                house.pool.install(|| scene.display.layer.as_ref().map(|layer| layer.key(&film).into()));
+            self.tell(&Notice::Key { generation: view.generation, key })?;
+        }
         let bytes = house.pool.install(|| {
             let picture = scene.display.picture(&film);
             let label = Label {
@@ -159,6 +177,8 @@ impl Painter {
             };
             frame::encode(&picture, &label)
         });
+        // What is made but once does not count.
+        self.pace.learn(kind, rays, ready.elapsed().as_secs_f64());
         self.send.blocking_send(Sent::Frame(bytes)).map_err(|_| End::Gone)
     }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::chart::{Chart, ChartFault, Scale};
+use super::chart::{Chart, ChartFault, Key, Scale};
 use super::{Colormap, Picture};
 use crate::render::{Channel, Film, Layer};
 
@@ -52,14 +52,22 @@ impl FalseColor {
         self.range.map_or(Ok(()), |range| Self::scale(self.channel.layer).check_range(range))
     }
 
-    /// The layer of a film that has it, as a picture; dark if it has not.
-    pub fn develop(&self, film: &Film) -> Picture {
+    fn chart(&self) -> Chart {
         let Channel { layer, .. } = self.channel;
         let plain = Chart::new(self.channel.title(), layer.unit(), Self::scale(layer));
         let colormap = self.colormap.unwrap_or(plain.colormap);
-        let chart = Chart { range: self.range, colormap, legend: self.legend, ..plain };
+        Chart { range: self.range, colormap, legend: self.legend, ..plain }
+    }
+
+    /// What the colours of the layer of a film mean.
+    pub fn key(&self, film: &Film) -> Key {
+        self.chart().key(film.plane(self.channel).map_or(&[][..], |plane| &plane.values))
+    }
+
+    /// The layer of a film that has it, as a picture; dark if it has not.
+    pub fn develop(&self, film: &Film) -> Picture {
         let values = film.plane(self.channel).map_or(&[][..], |plane| &plane.values);
-        chart.draw(values, film.width, film.height).unwrap_or_else(|_| Picture {
+        self.chart().draw(values, film.width, film.height).unwrap_or_else(|_| Picture {
             width: film.width,
             height: film.height,
             pixels: vec![[0.0; 3]; film.light.len()],

@@ -200,7 +200,7 @@ fn faults() {
     let large = said("large.fits", &shape(&[16385, 1], "8", &[1_u8].repeat(16385)));
     assert!(large.contains("16385×1") && large.contains("16384"), "{large}");
     let short = shape(&[100, 100], "-64", &[]);
-    assert!(said("short.fits", &short).contains("cannot measure"));
+    assert!(said("short.fits", &short).contains("cannot take"));
 
     let numbers: Vec<u8> = [1.0, f64::NAN, f64::INFINITY, 2.0].iter().flat_map(|x| x.to_be_bytes()).collect();
     let text = said("nan.fits", &shape(&[2, 2], "-64", &numbers));

@@ -27,8 +27,7 @@ const MOST_TICKS: usize = 11;
 pub(super) fn draw(chart: &Chart, range: Option<[f64; 2]>, seen: Seen, width: i32) -> Canvas {
     let mut legend = Legend::new(width);
     let no_value = seen.no_value.then(|| Item { name: "no value".to_owned(), color: NO_VALUE });
-    let heading =
-        if chart.unit.is_empty() { chart.title.clone() } else { format!("{} ({})", chart.title, chart.unit) };
+    let heading = chart.heading();
     if let Scale::Categories(names) = &chart.scale {
         legend.heading(&heading, None);
         let boxes =

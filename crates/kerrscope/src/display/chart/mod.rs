@@ -24,6 +24,7 @@
 mod bar;
 mod canvas;
 mod error;
+mod key;
 mod legend;
 mod round;
 mod scale;
@@ -31,6 +32,7 @@ mod text;
 mod ticks;
 
 pub use error::{ChartError, ChartFault};
+pub use key::Key;
 pub use scale::Scale;
 pub use ticks::Tick;
 

@@ -6,7 +6,7 @@ use crate::texture::TextureFault;
 
 /// A picture that cannot be measured, and why.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot measure {}: {fault}; {}", path.display(), fault.mend())]
+#[error("cannot take {} as a picture: {fault}; {}", path.display(), fault.mend())]
 pub struct PictureError {
     /// The file.
     pub path: PathBuf,
