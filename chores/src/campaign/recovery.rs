@@ -234,7 +234,8 @@ impl Bench {
         };
         let done = self.say(&["fit", &file, "--format", "json", "--quiet"])?;
         if !done.status.success() {
-            return Ok((true, format!("refused: {}", String::from_utf8_lossy(&done.stderr).trim())));
+            let said = String::from_utf8_lossy(&done.stderr).replace(&format!("{}/", self.folder.display()), "");
+            return Ok((true, format!("refused: {}", said.trim())));
         }
         let fit: Value = serde_json::from_slice(&done.stdout).map_err(|e| format!("{what}: {e}"))?;
         let seconds = fit["wall_s"].as_f64().unwrap_or(f64::NAN);

@@ -66,20 +66,23 @@ pub struct Fineness {
     pub orders: usize,
     /// The size of the last terms around, as a share of the first, at which a series is long enough.
     pub tail: f64,
+    /// Whether rows lie as close as from above wherever it is seen from.
+    pub radial: bool,
 }
 
 impl Default for Fineness {
     /// Such that means over pixels are within 1e-3 of the brightest.
     fn default() -> Self {
-        Self { lines: 320, step: 0.03, bend: 0.06, orders: ORDERS, tail: 3e-6 }
+        Self { lines: 320, step: 0.03, bend: 0.06, orders: ORDERS, tail: 3e-6, radial: false }
     }
 }
 
 impl Fineness {
     /// Such that means are within 3e-3 of the brightest, for pictures that are noisier.
-    pub const MEDIUM: Self = Self { lines: 160, step: 0.06, bend: 0.12, orders: 3, tail: 1e-4 };
+    pub const MEDIUM: Self =
+        Self { lines: 160, step: 0.06, bend: 0.12, orders: 3, tail: 1e-4, radial: false };
     /// Enough to see what a picture is of: within some percent.
-    pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2, tail: 1e-3 };
+    pub const SKETCH: Self = Self { lines: 96, step: 0.12, bend: 0.25, orders: 2, tail: 1e-3, radial: false };
 }
 
 /// Numbers of directions in which images may be solved for, and cosines of the inclinations up to which the first and the second are
@@ -295,10 +298,14 @@ impl Painter {
 
     /// The steps between rows, in those of the fineness. From above, spin, scale and distance change almost nothing but the brightness
     /// along the radius, and what is straight between rows is mistaken for them: with whole steps for 8e-3 of the spin at 0°
-    /// (a = 0.6), for 3e-3 at 20° (a = 0.7), for less than 5e-4 from 25° on.
+    /// (a = 0.6), for 3e-3 at 20° (a = 0.7), for less than 5e-4 from 25° on; but from anywhere for what a theory's numbers do together
+    /// with the spin (for 0.02 of Johannsen's α₁₃ at 50°).
     fn closer(&self, inclination: f64) -> f64 {
         if self.fineness.tail >= COARSE {
             return 1.0;
+        }
+        if self.fineness.radial {
+            return CLOSER[0].1;
         }
         let degrees = inclination.to_degrees();
         let piece = CLOSER.windows(2).find(|ends| degrees < ends[1].0);

@@ -62,7 +62,7 @@ impl TextDisk {
         fineness: Fineness,
         (light, free): (Light, Vec<String>),
     ) -> Self {
-        let fineness = Fineness { orders: fineness.orders.min(ORDERS), ..fineness };
+        let fineness = Fineness { orders: fineness.orders.min(ORDERS), radial: true, ..fineness };
         Self { theory, kind, painter: Painter::new(projection, true, fineness), free, light }
     }
 
