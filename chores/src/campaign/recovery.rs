@@ -234,7 +234,8 @@ impl Bench {
         };
         let done = self.say(&["fit", &file, "--format", "json", "--quiet"])?;
         if !done.status.success() {
-            let said = String::from_utf8_lossy(&done.stderr).replace(&format!("{}/", self.folder.display()), "");
+            let said =
+                String::from_utf8_lossy(&done.stderr).replace(&format!("{}/", self.folder.display()), "");
             return Ok((true, format!("refused: {}", said.trim())));
         }
         let fit: Value = serde_json::from_slice(&done.stdout).map_err(|e| format!("{what}: {e}"))?;
