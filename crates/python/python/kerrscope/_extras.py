@@ -4,9 +4,10 @@ import importlib
 from typing import Any
 
 
-def need(module: str, extra: str, what: str) -> Any:
+def need(module: str, what: str) -> Any:
     """The module, or an `ImportError` that says how to get it."""
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        raise ImportError(f"{what} needs {module.split('.')[0]}: pip install kerrscope[{extra}]") from error
+        package = module.split(".")[0]
+        raise ImportError(f"{what} needs {package}: pip install {package}") from error

@@ -124,9 +124,9 @@ class Fit:
     def to_inferencedata(self) -> Any:
         """The chains as ArviZ takes them: groups `posterior` and `sample_stats` (`lp`).
 
-        An `InferenceData`, or with ArviZ 1 a `DataTree`. `ImportError` without ArviZ: `pip install kerrscope[arviz]`.
+        An `InferenceData`, or with ArviZ 1 a `DataTree`. `ImportError` without ArviZ: `pip install arviz`.
         """
-        arviz = need("arviz", "arviz", "to_inferencedata")
+        arviz = need("arviz", "to_inferencedata")
         groups = {"posterior": self.chain, "sample_stats": {"lp": self.log_density}}
         if hasattr(arviz, "InferenceData"):
             found = arviz.from_dict(**groups)

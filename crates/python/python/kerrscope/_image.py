@@ -77,9 +77,10 @@ class Image:
 
     @property
     def layers(self) -> dict[str, NDArray[np.float32]]:
-        """The data layers that the scene asks for (`render.layers`), by their names.
+        """The data layers that the scene asks for, as by `scene.replace(**{"render.layers": ["g", "fate"]})`, by their names.
 
-        `r`, `phi`, `t`, `g` and `intensity` are orders × height × width, the others height × width. They are of the ray through each
+        `r`, `phi`, `t`, `g` and `intensity` are orders × height × width; `fate`, `crossings`, `windings`, `steps`, `error`, `sky_theta`,
+        `sky_phi` and `depth` are height × width. They are of the ray through each
         pixel's centre, in Boyer-Lindquist coordinates; NaN where a ray has none. `units` has their units.
         """
         if self._layers is None:
@@ -188,9 +189,9 @@ class Image:
         Raises
         ------
         ImportError
-            Without xarray: `pip install kerrscope[xarray]`.
+            Without xarray: `pip install xarray`.
         """
-        xr = need("xarray", "xarray", "to_xarray")
+        xr = need("xarray", "to_xarray")
         about = self._inner.about()
         height, width, _ = self.shape
         pixel, unit = (about["pixel_m"], "M") if about["pixel_m"] else (1.0, "pixel")

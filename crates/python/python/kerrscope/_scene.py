@@ -26,7 +26,8 @@ class Scene:
     Parameters
     ----------
     text
-        The scene in TOML, as `kerrscope schema` describes it; what is not given has its default, and nothing is the built-in scene.
+        The scene in TOML, as the program's `kerrscope schema` describes it; what is not given has its default, and nothing is the
+        built-in scene. `Scene().to_toml()` shows the keys with their defaults, and a value that is none of a key's says which there are.
     folder
         Where paths in it begin; the current folder if not given.
 

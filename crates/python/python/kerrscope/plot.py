@@ -1,4 +1,4 @@
-"""Pictures with matplotlib: `pip install kerrscope[plot]`."""
+"""Pictures with matplotlib: `pip install matplotlib`."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LABELS = {"uas": "µas", "M": "M", "pixel": "pixels"}
 
 
 def _pyplot() -> Any:
-    return need("matplotlib.pyplot", "plot", "plotting")
+    return need("matplotlib.pyplot", "plotting")
 
 
 def _pixel(about: dict[str, Any], unit: str | None) -> tuple[float, str]:

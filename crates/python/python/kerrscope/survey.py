@@ -14,6 +14,15 @@ named by a hash of all that it depends on: what is there is not made again, whoe
 ... ''')
 >>> len(plan), plan[3].values
 (4, {'spacetime.spin': 0.9})
+
+An axis has `from`, `to` and `steps`, or `values = [0.0, 0.5, 0.9]`. What follows makes the pictures, here or by a cluster, puts them into
+one file, and opens that::
+
+    report = kerrscope.survey.run(plan, folder="spins")      # client=dask.distributed.Client(...) for a cluster
+    kerrscope.survey.merge(plan, "spins", "spins.h5")
+    library = kerrscope.survey.open_library("spins.h5")      # an xarray.Dataset
+
+Each picture in the folder is an HDF5 file of its own that `kerrscope.open` reads.
 """
 
 import json
@@ -195,7 +204,7 @@ def _on_cluster(
     missing: list[int],
     progress: Callable[[int, int], object] | None,
 ) -> dict[int, str]:
-    distributed = need("distributed", "dask", "running a survey on a cluster")
+    distributed = need("distributed", "running a survey on a cluster")
     core, names = plan._core, plan._core.names
     waiting = iter(missing)
     run_id = uuid.uuid4().hex[:8]
@@ -290,10 +299,10 @@ def open_library(path: str | PathLike[str]) -> Any:
     """A library as an `xarray.Dataset`: images with dimensions `task`, `y` and `x`, each task's parameters as coordinates along `task`,
     and what all pictures share as attributes.
 
-    Raises `ImportError` without the extra `xarray`, and `FileNotFoundError` or `OSError` if the file cannot be read.
+    Raises `ImportError` without xarray and h5py, and `FileNotFoundError` or `OSError` if the file cannot be read.
     """
-    xarray = need("xarray", "xarray", "opening a library")
-    h5py = need("h5py", "xarray", "opening a library")
+    xarray = need("xarray", "opening a library")
+    h5py = need("h5py", "opening a library")
     with h5py.File(path, "r") as file:
         table = file["parameters"]
         columns = {name: ("task", _column(column)) for name, column in table.items()}
