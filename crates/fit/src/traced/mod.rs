@@ -8,6 +8,7 @@ mod order;
 mod picture;
 mod pieces;
 mod ratio;
+mod rows;
 mod screen;
 mod secant;
 mod shine;

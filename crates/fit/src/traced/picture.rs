@@ -91,7 +91,7 @@ const DIRECTIONS: [usize; 5] = [32, 64, 128, 256, 512];
 const ENOUGH: [f64; 2] = [0.7, 0.35];
 
 /// A tail from which on a series that is half as long is looked at first.
-const COARSE: f64 = 3e-5;
+pub(super) const COARSE: f64 = 3e-5;
 
 /// A disk as it is seen: where its edges lie, and how they move.
 pub(super) struct Stand<'a> {
@@ -189,19 +189,6 @@ const FAR_X: f64 = 0.02;
 /// The largest outer radius of a disk with an edge, as a share of the observer's: one farther out is drawn as one without an edge.
 const NEAR: f64 = 0.8;
 
-/// Inclinations, degrees, and the steps between rows there as a share of those from the side.
-const CLOSER: [(f64, f64); 3] = [(7.0, 0.3), (22.0, 0.5), (40.0, 1.0)];
-
-/// Steps between which the rows of a disk are spread.
-const GRID: usize = 400;
-
-/// How many of the rows images have by their orders, from the side, and at least.
-const ROWS: [f64; ORDERS] = [1.0, 0.4, 0.1, 0.05];
-const FEWEST: f64 = 8.0;
-
-/// Rows of a disk that is lit evenly.
-const EVEN_ROWS: usize = 6;
-
 /// Light that no picture can be made of: some of it does not come from where it should.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Unseen;
@@ -266,7 +253,7 @@ impl Painter {
         let mut canvas = Canvas::new(size[0], size[1], derivatives.then_some(LAYOUT));
         for (order, image) in lines.iter().enumerate() {
             let before = if self.opaque { &lines[..order] } else { &[] };
-            let rows = self.rows(matter, [*inner, stand.outer(order, 0.0)], order, view.inclination);
+            let rows = self.fineness.rows(matter, [*inner, stand.outer(order, 0.0)], order, view.inclination);
             Painting { sketch: &sketch, image, before, rates, rows: &rows }
                 .draw(self.fineness.lines, &mut canvas);
         }
@@ -294,57 +281,6 @@ impl Painter {
             }
         }
         Err(Unseen)
-    }
-
-    /// The steps between rows, in those of the fineness. From above, spin, scale and distance change almost nothing but the brightness
-    /// along the radius, and what is straight between rows is mistaken for them: with whole steps for 8e-3 of the spin at 0°
-    /// (a = 0.6), for 3e-3 at 20° (a = 0.7), for less than 5e-4 from 25° on; but from anywhere for what a theory's numbers do together
-    /// with the spin (for 0.02 of Johannsen's α₁₃ at 50°).
-    fn closer(&self, inclination: f64) -> f64 {
-        if self.fineness.tail >= COARSE {
-            return 1.0;
-        }
-        if self.fineness.radial {
-            return CLOSER[0].1;
-        }
-        let degrees = inclination.to_degrees();
-        let piece = CLOSER.windows(2).find(|ends| degrees < ends[1].0);
-        piece.map_or(1.0, |ends| {
-            let [(from, low), (to, high)] = [ends[0], ends[1]];
-            low + (high - low) * (degrees - from).max(0.0) / (to - from)
-        })
-    }
-
-    /// t of the rows of an image: close where the flux bends, and fewer where it is thinner.
-    fn rows(&self, matter: &dyn Shine, [inner, outer]: [f64; 2], order: usize, inclination: f64) -> Vec<f64> {
-        if matter.even() {
-            // What is the same everywhere has edges alone.
-            return (0..=EVEN_ROWS).map(|row| row as f64 / EVEN_ROWS as f64).collect();
-        }
-        let x = |t: f64| inner + (outer - inner) * t;
-        let largest = (0..=GRID).map(|k| matter.flux(x(k as f64 / GRID as f64))[0]).fold(0.0, f64::max);
-        let mut sums = vec![0.0];
-        for k in 0..GRID {
-            let middle = x((k as f64 + 0.5) / GRID as f64);
-            let relative = 2.0 * (inner - outer) / GRID as f64 / middle;
-            let bend = matter.smoothness(middle, largest) * self.fineness.bend;
-            let steps = (relative / self.fineness.step).max(relative * middle.powi(-2) / bend);
-            sums.push(sums[k] + steps);
-        }
-        let share = if order == 0 { self.closer(inclination).recip() } else { ROWS[order] };
-        let count = (sums[GRID] * share).ceil().clamp(FEWEST, 2000.0);
-        let mut rows = Vec::new();
-        let mut k = 0;
-        for row in 0..=count as usize {
-            let target = sums[GRID] * row as f64 / count;
-            while k + 1 < GRID && sums[k + 1] < target {
-                k += 1;
-            }
-            rows.push(
-                ((k as f64 + (target - sums[k]) / (sums[k + 1] - sums[k])) / GRID as f64).clamp(0.0, 1.0),
-            );
-        }
-        rows
     }
 }
 
